@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+# Compiles modules.d/ and shapes/ into rigc_catalog (see tools/embed and src/catalog).

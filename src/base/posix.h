@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// What files.cpp, write_file.cpp and paths.cpp share; nobody else includes it.
+// Test: tests/base/files_test.cpp
+#pragma once
+
+#include <sys/types.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace rigc::posix {
+
+/// Owns a file descriptor.
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(other.release()) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  ~Descriptor();
+  int get() const { return number_; }
+  int release() { return std::exchange(number_, -1); }
+  /// Closes now and says whether the system agreed: some report a failed write only here.
+  bool close();
+  explicit operator bool() const { return number_ >= 0; }
+
+ private:
+  int number_;
+};
+
+/// open() with O_CLOEXEC and O_NOCTTY, again after signals.
+Descriptor open(const std::string& path, int flags, mode_t mode = 0);
+
+/// What the system says about an error number, in English whatever the locale.
+std::string text_of_error(int error);
+
+/// "a folder", "a FIFO", "a socket", "a device".
+const char* kind_of(mode_t mode);
+
+bool has_nul(const std::string& path);
+
+/// Where a symbolic link points; nothing if `path` is none.
+std::optional<std::string> read_link(const std::string& path);
+
+/// Whether a file name is one of the temporary names that write_file uses.
+bool is_temporary_name(const std::string& name);
+
+}  // namespace rigc::posix

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// Reads a module's descriptor: a YAML file in, a Descriptor or diagnostics out.
+// Test: tests/catalog/descriptor_test.cpp
+#include "catalog/descriptor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/files.h"
+#include "base/text.h"
+#include "catalog/codes.h"
+#include "catalog/reader.h"
+
+namespace rigc::catalog {
+namespace {
+
+const std::vector<std::string> kKeys = {
+    "module",     "version",        "title",   "category", "stage",   "summary",
+    "help",       "implementation", "creates", "replaces", "changes", "parameters",
+    "example"};
+
+class DescriptorReader {
+ public:
+  DescriptorReader(const yaml::Node& root, Diagnostics& diagnostics)
+      : root_(root), diagnostics_(diagnostics) {}
+
+  Descriptor read(std::uint32_t file);
+
+ private:
+  void read_head(std::uint32_t file);
+  void read_creates();
+  void read_replaces();
+  void read_changes();
+  void read_change(const yaml::Node& item);
+  bool has_role(const std::string& role) const;
+
+  const yaml::Node& root_;
+  Diagnostics& diagnostics_;
+  Descriptor descriptor_;
+};
+
+Descriptor DescriptorReader::read(std::uint32_t file) {
+  read_head(file);
+  read_parameters(root_, descriptor_, diagnostics_);
+  read_creates();
+  read_replaces();
+  read_changes();
+  return std::move(descriptor_);
+}
+
+void DescriptorReader::read_head(std::uint32_t file) {
+  descriptor_.module = need_name(root_, "module", "descriptor", diagnostics_);
+  const std::string stem = stem_of(std::string(diagnostics_.sources().name(file)));
+  if (!descriptor_.module.empty() && stem != descriptor_.module) {
+    diagnostics_.report(codes::kWrongFileName, root_.find("module")->span,
+                        fmt::format("the descriptor of {} stands in {}.yaml", descriptor_.module,
+                                    printable(stem, 60)),
+                        fmt::format("rename the file to {}.yaml", descriptor_.module));
+  }
+  if (const yaml::Node* version = need(root_, "version", "descriptor", diagnostics_)) {
+    const auto number = yaml::as_integer(*version, "version", diagnostics_);
+    if (number && (*number < 1 || *number > 1'000'000)) {
+      diagnostics_.report(codes::kBadVersion, version->span,
+                          fmt::format("version {} is not in 1..1000000", *number));
+    } else if (number) {
+      descriptor_.version = static_cast<int>(*number);
+    }
+  }
+  descriptor_.title = need_text(root_, "title", "descriptor", diagnostics_);
+  descriptor_.category = need_name(root_, "category", "descriptor", diagnostics_);
+  descriptor_.summary = need_text(root_, "summary", "descriptor", diagnostics_);
+  descriptor_.help = text_of(root_, "help", diagnostics_);
+  descriptor_.example = text_of(root_, "example", diagnostics_);
+  if (const yaml::Node* stage = root_.find("stage")) {
+    const std::string word = word_of(*stage, stage_names(), "stage", diagnostics_);
+    descriptor_.stage = parse_stage(word).value_or(Stage::build);
+  }
+  if (const yaml::Node* name = root_.find("implementation")) {
+    descriptor_.implementation =
+        yaml::as_name(*name, "implementation", diagnostics_).value_or("builtin");
+  }
+}
+
+bool DescriptorReader::has_role(const std::string& role) const {
+  return std::any_of(descriptor_.creates.begin(), descriptor_.creates.end(),
+                     [&](const Creates& made) { return made.role == role; });
+}
+
+void DescriptorReader::read_creates() {
+  for (const yaml::Node& item : list_of(root_, "creates", diagnostics_)) {
+    yaml::check_keys(item, {"role", "kind", "per", "help"}, "creates", diagnostics_);
+    if (!item.is_map()) continue;
+    Creates made;
+    made.role = need_name(item, "role", "creates", diagnostics_);
+    made.kind = need_name(item, "kind", "creates", diagnostics_);
+    made.help = need_text(item, "help", "creates", diagnostics_);
+    if (const yaml::Node* per = item.find("per")) {
+      made.per = word_of(*per, {"command", "joint"}, "per", diagnostics_);
+    }
+    if (!made.role.empty() && has_role(made.role)) {
+      diagnostics_.report(codes::kDuplicateCreates, item.span,
+                          fmt::format("role {} is declared twice", made.role));
+    }
+    descriptor_.creates.push_back(std::move(made));
+  }
+}
+
+void DescriptorReader::read_replaces() {
+  const yaml::Node* replaces = root_.find("replaces");
+  if (!replaces || !yaml::check_map(*replaces, "replaces", diagnostics_)) return;
+  for (const yaml::Node::Entry& entry : replaces->entries) {
+    auto& [module, roles] = descriptor_.replaces.emplace_back();
+    module = entry.key;
+    if (!yaml::check_map(entry.value, "roles", diagnostics_)) continue;
+    for (const yaml::Node::Entry& pair : entry.value.entries) {
+      const auto role = yaml::as_name(pair.value, "role", diagnostics_);
+      if (!role) continue;
+      roles.emplace_back(pair.key, *role);
+      if (has_role(*role)) continue;
+      std::vector<std::string> known;
+      for (const Creates& made : descriptor_.creates) known.push_back(made.role);
+      diagnostics_.report(codes::kBadReplaces, pair.value.span,
+                          fmt::format("{} does not make a node in role {}", descriptor_.module, *role),
+                          suggest(*role, known));
+    }
+  }
+}
+
+void DescriptorReader::read_changes() {
+  for (const yaml::Node& item : list_of(root_, "changes", diagnostics_)) {
+    yaml::check_keys(item, {"version", "parameter", "was", "default_was", "note"}, "change",
+                     diagnostics_);
+    if (item.is_map()) read_change(item);
+  }
+}
+
+void DescriptorReader::read_change(const yaml::Node& item) {
+  Change change;
+  if (const yaml::Node* version = need(item, "version", "change", diagnostics_)) {
+    const auto number = yaml::as_integer(*version, "version", diagnostics_);
+    if (number && (*number < 2 || *number > descriptor_.version)) {
+      diagnostics_.report(codes::kBadChange, version->span,
+                          fmt::format("version {} is not in 2..{}", *number, descriptor_.version));
+    } else if (number) {
+      change.version = static_cast<int>(*number);
+    }
+  }
+  change.note = text_of(item, "note", diagnostics_);
+  change.was = text_of(item, "was", diagnostics_);
+  const yaml::Node* name = item.find("parameter");
+  const Parameter* parameter = nullptr;
+  if (name) {
+    change.parameter = yaml::as_name(*name, "parameter", diagnostics_).value_or("");
+    parameter = descriptor_.find(change.parameter);
+  }
+  if (name && !parameter && diagnostics_.ok()) {
+    diagnostics_.report(codes::kBadChange, name->span,
+                        fmt::format("there is no parameter {}", change.parameter));
+  }
+  if (const yaml::Node* before = item.find("default_was")) {
+    change.default_was = literal_from(*before, diagnostics_);
+    const bool checkable = parameter && change.default_was;
+    if (const auto wrong = checkable ? mismatch(*parameter, *change.default_was) : std::nullopt) {
+      diagnostics_.report(codes::kBadDefault, wrong->span, "earlier default of " + wrong->message,
+                          wrong->hint);
+    }
+  }
+  descriptor_.changes.push_back(std::move(change));
+}
+
+}  // namespace
+
+std::optional<Descriptor> read_descriptor(std::uint32_t file, Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.errors();
+  const auto root = yaml::read(file, diagnostics);
+  if (!root) return std::nullopt;
+  yaml::check_keys(*root, kKeys, "descriptor", diagnostics);
+  if (!root->is_map()) return std::nullopt;
+  Descriptor descriptor = DescriptorReader(*root, diagnostics).read(file);
+  if (diagnostics.errors() != errors) return std::nullopt;
+  return descriptor;
+}
+
+}  // namespace rigc::catalog

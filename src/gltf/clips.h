@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Clips of a file in and out. Test: tests/gltf/clips_test.cpp
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "anim/clip.h"
+#include "gltf/file.h"
+#include "gltf/patch.h"
+
+namespace rigc::gltf {
+
+/// All animations: node channels and KHR_animation_pointer channels at /nodes/N/extras/<attribute>, /nodes/N/translation
+/// and so on; other pointers and morph weights are counted in `other_channels` and left alone.
+struct ClipFile {
+  std::vector<anim::Clip> clips;
+  std::vector<int> other_channels;     ///< by clip
+};
+std::optional<ClipFile> read_clips(const File& file, Diagnostics& diagnostics);
+
+/// Changes animation `clip.source_animation` of the file (or appends one where it is -1): channels on nodes of
+/// `replaced` (those paths that the clip brings) and all channels whose index is in `dropped` go, the clip's channels
+/// come, everything else stays with its samplers. Times that several curves share are written once.
+void write_clip(Patch& patch, const File& file, const anim::Clip& clip, const std::vector<int>& dropped_channels);
+
+}  // namespace rigc::gltf

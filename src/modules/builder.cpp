@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// The builder: gives nodes their identity and names, and passes every change to the command's
+// journal. Test: tests/modules/builder_test.cpp
+#include "modules/builder.h"
+
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "modules/codes.h"
+#include "scene/formula.h"
+
+namespace rigc::modules {
+
+Builder::Builder(const Job& job, Parameters parameters, scene::Edit& edit)
+    : job_(job),
+      parameters_(std::move(parameters)),
+      edit_(edit),
+      joint_(job.index.joint(job.skeleton.joints[job.joint].key)) {}
+
+const tags::TaggedJoint* Builder::tagged(NodeId joint) const {
+  const scene::Node& node = scene()[joint];
+  if (!node.is_skeleton()) return nullptr;
+  const int found = job_.skeleton.find(node.identity.owner);
+  return found < 0 ? nullptr : &job_.skeleton.joints[static_cast<std::size_t>(found)];
+}
+
+Identifiers Builder::identifiers(NodeId joint) const {
+  Identifiers ids = scene()[joint].ids;
+  if (const Literal* local = job_.command.find("local")) ids.local = local->text;
+  if (const Literal* label = job_.command.find("label")) ids.label = label->text;
+  return ids;
+}
+
+NodeId Builder::make(const NewNode& request) {
+  const NodeId joint = request.joint.valid() ? request.joint : joint_;
+  const JointKey owner = scene()[joint].identity.owner;
+  scene::Node node;
+  node.kind = request.kind;
+  node.parent = request.parent;
+  node.ids = identifiers(joint);
+  node.identity.owner = owner;
+  node.identity.holder = scene()[joint_].identity.owner;
+  node.identity.command = job_.command.id;
+  node.identity.role = request.role;
+  node.identity.counter = counters_[{owner, request.role}]++;
+  const Literal* name = job_.command.find("name");
+  const std::string base = name ? name->text : scene()[joint].name;
+  node.name = base + "_" + (request.suffix.empty() ? request.role : request.suffix);
+  if (name && joint == joint_ && node.identity.counter == 0 && request.suffix.empty() &&
+      (request.role == "control" || request.role == "joint" || request.role == "space")) {
+    node.name = base;
+  }
+  node.command = job_.command_index;
+  node.module = job_.command.module;
+  node.origin = {job_.command.span, scene()[joint_].name, job_.command.id};
+  return edit_.make(std::move(node));
+}
+
+void Builder::connect(const Plug& from, const Plug& to) {
+  if (scene().source(to)) {
+    fail(codes::kAlreadyDriven, {},
+         fmt::format("{} of {} is driven already", scene().plug_name(to),
+                     traversal::describe(scene(), to.node)),
+         "switch one of the two commands off, or give one constraint both targets");
+    return;
+  }
+  edit_.connect(from, to);
+}
+
+bool Builder::check_formula(std::string_view parameter, const BoundExpression& bound) {
+  const auto formula = scene::parse_formula(bound.code, parameters_.span(parameter),
+                                            static_cast<int>(bound.plugs.size()), job_.diagnostics);
+  failed_ = failed_ || !formula;
+  return formula.has_value();
+}
+
+void Builder::fail(const Code& code, std::string_view parameter, std::string message,
+                   std::string hint) {
+  failed_ = true;
+  const Span span = parameter.empty() ? job_.command.span : parameters_.span(parameter);
+  job_.diagnostics.report(code, span, std::move(message), std::move(hint));
+}
+
+}  // namespace rigc::modules

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Diagnostic codes 460..499: what module constructors refuse.
+#pragma once
+
+#include "base/diagnostics.h"
+
+namespace rigc::modules::codes {
+
+inline constexpr Code kNotAChain{460, Severity::error, "joints are no chain",
+                                 "The module needs joints of which each hangs under the one before "
+                                 "it (joints in between are allowed where the "
+                                 "module says so)."};
+inline constexpr Code kTooFewJoints{461, Severity::error, "too few joints",
+                                    "The module needs more joints than the selectors found."};
+inline constexpr Code kUnknownShape{462, Severity::error, "unknown shape",
+                                    "No shape has this name, neither among those that come with "
+                                    "rigc nor in the template's `shapes:`."};
+inline constexpr Code kAlreadyDriven{463, Severity::error, "already driven",
+                                     "Something drives this plug already. Two commands that drive "
+                                     "one joint fight: switch one off, or blend them "
+                                     "with a constraint that has both as targets."};
+inline constexpr Code kAttributeExists{
+    464, Severity::error, "attribute exists already",
+    "The node has an attribute of this name. Choose another name."};
+inline constexpr Code kValueDoesNotFit{
+    465, Severity::error, "value does not fit the attribute",
+    "The attribute takes another type of value, or the value lies outside its range."};
+inline constexpr Code kNotSettable{466, Severity::error, "attribute cannot be set",
+                                   "Outputs are computed and data are fixed when a node is made: "
+                                   "neither can be set or connected into."};
+inline constexpr Code kTypesDiffer{467, Severity::error, "plugs of different types",
+                                   "A connection carries a value as it is: number to number, "
+                                   "vector to vector. Name a component such as `.x`."};
+inline constexpr Code kNotATransform{468, Severity::error, "node has no place in space",
+                                     "The parameter needs a joint, control or transform."};
+inline constexpr Code kUnderItself{
+    469, Severity::error, "node would hang under itself",
+    "A node cannot become a child of itself or of something below it."};
+inline constexpr Code kWeightCount{
+    470, Severity::error, "weights and targets differ in number",
+    "There is one weight for each target, in the same order, and none is negative."};
+inline constexpr Code kZeroLengthBone{
+    471, Severity::error, "bone of no length",
+    "Two joints of the chain lie in one place, so that the bone between them has no direction."};
+inline constexpr Code kRootExists{472, Severity::error, "second root",
+                                  "A rig has one `root` command."};
+inline constexpr Code kNotMadeByCommand{
+    473, Severity::error, "node belongs to the skeleton",
+    "Joints of the skeleton stay where they are in the hierarchy; constraints move them."};
+
+inline constexpr const Code* kModulesCodes[] = {
+    &kNotAChain,       &kTooFewJoints,   &kUnknownShape, &kAlreadyDriven,   &kAttributeExists,
+    &kValueDoesNotFit, &kNotSettable,    &kTypesDiffer,  &kNotATransform,   &kUnderItself,
+    &kWeightCount,     &kZeroLengthBone, &kRootExists,   &kNotMadeByCommand};
+
+}  // namespace rigc::modules::codes

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// control: one control at a joint, under a zero; the joint follows it.
+// Test: tests/modules/control_test.cpp
+#include "modules/registry.h"
+#include "modules/steps.h"
+
+namespace rigc::modules {
+
+void control(Builder& b) {
+  const Parameters& with = b.with();
+  ControlSpec spec;
+  spec.joint = b.joint();
+  spec.frame = oriented(b, b.joint(), with.text("orient"));
+  spec.space = with.has("parent") ? with.node("parent") : space_of(b, b.joint());
+  spec.shape = with.text("shape");
+  spec.size = with.number("size");
+  spec.color = side_color(b, b.joint(), "color");
+  spec.facing = facing(b, b.joint(), spec.frame.linear, with.text("axis"));
+  spec.offset = with.vec3("offset");
+  spec.translate = with.flag("translate");
+  spec.rotate = with.flag("rotate");
+  spec.scale = with.flag("scale");
+  const ControlNodes made = make_control(b, spec);
+  if (b.failed() || !with.flag("drive")) return;
+  drive(b, b.joint(), target(b, made.control), spec.translate);
+}
+
+}  // namespace rigc::modules

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// fk_chain: a control for each joint of a chain, each under the one before.
+// Test: tests/modules/fk_chain_test.cpp
+#include "modules/codes.h"
+#include "modules/registry.h"
+#include "modules/steps.h"
+
+namespace rigc::modules {
+
+void fk_chain(Builder& b) {
+  const Parameters& with = b.with();
+  std::vector<NodeId> joints = with.nodes("joints");
+  if (!with.flag("last") && joints.size() > 1) joints.pop_back();
+  const std::string& orient = with.text("orient");
+  ControlSpec spec;
+  spec.role = "fk";
+  spec.shape = with.text("shape");
+  spec.size = with.number("size");
+  spec.translate = with.flag("translate");
+  spec.space = with.has("parent") ? with.node("parent") : space_of(b, joints.front());
+  for (NodeId joint : joints) {
+    spec.joint = joint;
+    spec.frame = oriented(b, joint, orient);
+    spec.color = side_color(b, joint, "color");
+    spec.facing = facing(b, joint, spec.frame.linear, with.text("axis"));
+    const ControlNodes made = make_control(b, spec);
+    if (b.failed()) return;
+    drive(b, joint, target(b, made.control), spec.translate);
+    spec.space = made.control;
+  }
+}
+
+}  // namespace rigc::modules

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// ik_fk_limb: an FK chain, an IK control with a pole, and a switch that blends them.
+// Test: tests/modules/ik_fk_limb_test.cpp
+#include <array>
+
+#include "modules/codes.h"
+#include "modules/limbs/two_bone.h"
+#include "modules/registry.h"
+
+namespace rigc::modules {
+namespace {
+
+namespace transform = scene::transform;
+
+/// What a limb is made of, start to end.
+struct Limb {
+  TwoBone bones;
+  std::array<NodeId, 3> joints;
+  std::array<NodeId, 3> fk;
+  NodeId ik, pole, settings, solver;
+  Plug ik_weight, fk_weight;
+};
+
+/// Shape, size and colour parameters that begin with `part`.
+ControlSpec look(const Builder& b, NodeId joint, const std::string& part) {
+  ControlSpec spec;
+  spec.joint = joint;
+  spec.role = part;
+  spec.shape_parameter = part + "_shape";
+  spec.shape = b.with().text(spec.shape_parameter);
+  spec.size = b.with().number(part + "_size");
+  spec.color = side_color(b, joint, part + "_color");
+  return spec;
+}
+
+void make_fk(Builder& b, Limb& limb) {
+  const Parameters& with = b.with();
+  NodeId space = with.has("parent") ? with.node("parent") : space_of(b, limb.joints[0]);
+  for (std::size_t i = 0; i < 3 && !b.failed(); ++i) {
+    const NodeId joint = limb.joints[i];
+    ControlSpec spec = look(b, joint, "fk");
+    const math::Vec3 direction =
+        i < 2 ? math::normalised(position(b, limb.joints[i + 1]) - position(b, joint))
+              : bone_direction(b, joint);
+    spec.frame = {bone_frame(b, joint, direction), position(b, joint)};
+    spec.facing = {1, 0, 0};
+    spec.space = space;
+    spec.translate = false;
+    limb.fk[i] = make_control(b, spec).control;
+    space = limb.fk[i];
+  }
+}
+
+void make_ik(Builder& b, Limb& limb) {
+  const Parameters& with = b.with();
+  const NodeId space = with.has("ik_parent") ? with.node("ik_parent") : root_control(b);
+  ControlSpec spec = look(b, limb.joints[2], "ik");
+  spec.frame = oriented(b, limb.joints[2], with.text("ik_orient"));
+  spec.space = space;
+  limb.ik = make_control(b, spec).control;
+  if (b.failed()) return;
+  spec = look(b, limb.joints[1], "pole");
+  spec.frame = {character_axes(b),
+                pole_position(b, limb.bones, with.number("pole_distance") * limb.bones.length)};
+  spec.space = space;
+  spec.rotate = false;
+  limb.pole = make_control(b, spec).control;
+}
+
+/// The settings control rides on the end joint; its `ik_fk` gives both weights.
+void make_settings(Builder& b, Limb& limb) {
+  const Parameters& with = b.with();
+  ControlSpec spec = look(b, limb.joints[2], "settings");
+  const math::Mat3 axes = character_axes(b);
+  spec.frame = {axes, position(b, limb.joints[2]) + axes * with.vec3("settings_offset")};
+  spec.space = limb.joints[2];
+  spec.facing = {0, 0, 1};
+  spec.translate = spec.rotate = false;
+  limb.settings = make_control(b, spec).control;
+  if (b.failed()) return;
+
+  scene::UserAttribute ik_fk;
+  ik_fk.name = "ik_fk";
+  ik_fk.value = ik_fk.initial = with.number("ik_fk");
+  ik_fk.min = 0;
+  ik_fk.max = 1;
+  limb.ik_weight = b.add_attribute(limb.settings, std::move(ik_fk));
+  namespace expression = scene::expression;
+  const NodeId rest_of = b.make({.kind = scene::Kind::expression,
+                                 .role = "driver",
+                                 .joint = limb.joints[2],
+                                 .parent = {},
+                                 .suffix = "fk_weight"});
+  b.set({rest_of, expression::kCode}, std::string("1 - $0"));
+  b.set({rest_of, expression::kInputs, 0}, with.number("ik_fk"));
+  b.connect(limb.ik_weight, {rest_of, expression::kInputs, 0});
+  limb.fk_weight = {rest_of, expression::kOutput};
+}
+
+/// Each joint turns with its FK control and with what IK says, by weight. Lengths stay: nothing is
+/// moved.
+void blend(Builder& b, const Limb& limb) {
+  namespace constraint = scene::constraint;
+  const double ik_fk = b.with().number("ik_fk");
+  const Target solved[3] = {{{limb.solver, scene::ik2::kStartWorld}, rest(b, limb.joints[0])},
+                            {{limb.solver, scene::ik2::kMiddleWorld}, rest(b, limb.joints[1])},
+                            target(b, limb.ik)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const NodeId joint = limb.joints[i];
+    const NodeId node = make_constraint(b, scene::Kind::orient_constraint, joint,
+                                        {target(b, limb.fk[i]), solved[i]}, {1 - ik_fk, ik_fk},
+                                        true, "driver", joint);
+    b.connect(limb.fk_weight, {node, constraint::kWeights, 0});
+    b.connect(limb.ik_weight, {node, constraint::kWeights, 1});
+    b.connect({node, constraint::kRotation}, {joint, transform::kRotation});
+  }
+}
+
+}  // namespace
+
+void ik_fk_limb(Builder& b) {
+  const Parameters& with = b.with();
+  Limb limb;
+  limb.joints = {with.node("start"), with.node("middle"), with.node("end")};
+  chain_between(b, limb.joints[0], limb.joints[1], "middle");
+  chain_between(b, limb.joints[1], limb.joints[2], "end");
+  if (b.failed()) return;
+  limb.bones =
+      measure_two_bone(b, limb.joints[0], limb.joints[1], limb.joints[2], with.text("bend"));
+  if (b.failed()) return;
+  make_fk(b, limb);
+  if (!b.failed()) make_ik(b, limb);
+  if (!b.failed()) make_settings(b, limb);
+  if (b.failed()) return;
+  limb.solver = make_two_bone(b, limb.bones, limb.ik, limb.pole, 0);
+  blend(b, limb);
+}
+
+}  // namespace rigc::modules

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// ik_handle: a chain of joints whose last joint follows the handle.
+// Test: tests/modules/ik_test.cpp
+#include <fmt/format.h>
+
+#include "modules/codes.h"
+#include "modules/limbs/two_bone.h"
+#include "modules/registry.h"
+
+namespace rigc::modules {
+namespace {
+
+namespace transform = scene::transform;
+
+void build_two_bone(Builder& b, const std::vector<NodeId>& chain, NodeId handle) {
+  if (chain.size() != 3) {
+    b.fail(chain.size() < 3 ? codes::kTooFewJoints : codes::kNotAChain, "end",
+           fmt::format("the two_bone solver takes three joints, but {} lie from start to end",
+                       chain.size()),
+           chain.size() > 3 ? "use solver: chain" : "name a joint further down as `end`");
+    return;
+  }
+  const TwoBone limb = measure_two_bone(b, chain[0], chain[1], chain[2], b.with().text("bend"));
+  if (b.failed()) return;
+  const NodeId solver =
+      make_two_bone(b, limb, handle, b.with().node("pole"), b.with().number("twist"));
+  const std::uint16_t solved[2] = {scene::ik2::kStartWorld, scene::ik2::kMiddleWorld};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const NodeId turn =
+        make_constraint(b, scene::Kind::orient_constraint, chain[i],
+                        {{{solver, solved[i]}, rest(b, chain[i])}}, {}, false, "driver", chain[i]);
+    b.connect({turn, scene::constraint::kRotation}, {chain[i], transform::kRotation});
+  }
+}
+
+void build_chain(Builder& b, const std::vector<NodeId>& chain, NodeId handle) {
+  namespace ik = scene::ik_chain;
+  if (chain.size() < 2) {
+    b.fail(codes::kTooFewJoints, "end", "an IK chain takes at least two joints");
+    return;
+  }
+  const NodeId solver = b.make({.kind = scene::Kind::ik_chain,
+                                .role = "driver",
+                                .joint = chain[0],
+                                .parent = {},
+                                .suffix = "ik"});
+  b.connect({chain.front(), transform::kParent}, {solver, ik::kBase});
+  b.set({solver, ik::kGoal}, rest(b, handle));
+  b.connect(world_of(handle), {solver, ik::kGoal});
+  b.set({solver, ik::kGoalOffset}, math::inverse(rest(b, handle)) * position(b, chain.back()));
+  b.set({solver, ik::kTwist}, b.with().number("twist"));
+  b.set({solver, ik::kIterations}, b.with().number("iterations"));
+  if (b.with().has("pole")) {
+    b.set({solver, ik::kHasPole}, 1.0);
+    b.connect(world_of(b.with().node("pole")), {solver, ik::kPole});
+  }
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const auto element = static_cast<std::int32_t>(i);
+    const math::Trs local = b.scene().local(chain[i]);
+    b.set({solver, ik::kTranslates, element}, local.translation);
+    b.connect({chain[i], transform::kTranslate}, {solver, ik::kTranslates, element});
+    b.set({solver, ik::kRests, element}, local.rotation);
+    if (i + 1 == chain.size()) break;
+    b.connect({solver, ik::kRotations, element}, {chain[i], transform::kRotation});
+  }
+}
+
+}  // namespace
+
+void ik_handle(Builder& b) {
+  const Parameters& with = b.with();
+  const std::vector<NodeId> chain = chain_between(b, with.node("start"), with.node("end"), "end");
+  if (b.failed()) return;
+  const NodeId handle = b.make({.kind = scene::Kind::handle,
+                                .role = "handle",
+                                .joint = chain.back(),
+                                .parent = {},
+                                .suffix = ""});
+  hang(b, handle, with.has("goal") ? with.node("goal") : root_control(b),
+       {character_axes(b), position(b, chain.back())});
+  if (with.text("solver") == "two_bone") {
+    build_two_bone(b, chain, handle);
+  } else {
+    build_chain(b, chain, handle);
+  }
+}
+
+}  // namespace rigc::modules

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Two-bone limbs: where they bend, where the pole goes, the solver node.
+// Test: tests/modules/ik_test.cpp
+#include "modules/limbs/two_bone.h"
+
+#include <fmt/format.h>
+
+#include "modules/codes.h"
+
+namespace rigc::modules {
+namespace {
+
+using math::Vec3;
+
+constexpr double kBent = 0.0872;  // sine of 5 degrees
+constexpr double kExactlyStraight =
+    1e-7;  // deviation in lengths of the limb below which any plane leaves it unmoved
+
+Vec3 perpendicular_part(Vec3 v, Vec3 unit) { return v - unit * math::dot(v, unit); }
+
+/// Where a straight limb bends to: the parameter's side, made perpendicular to the limb.
+Vec3 wanted_bend(const Builder& b, const std::string& bend, Vec3 direction) {
+  std::string side = bend;
+  if (side == "auto")
+    side = std::abs(math::dot(direction, b.character().left)) > 0.7 ? "backward" : "forward";
+  const Vec3 flat = perpendicular_part(character_direction(b, side), direction);
+  if (math::length(flat) > 0.1) return math::normalised(flat);
+  // The limb points where it should bend to: up is the next best side.
+  return math::normalised(perpendicular_part(b.character().up, direction),
+                          math::perpendicular(direction));
+}
+
+}  // namespace
+
+TwoBone measure_two_bone(Builder& b, NodeId start, NodeId middle, NodeId end,
+                         const std::string& bend) {
+  TwoBone limb{start, middle, end, {}, 0};
+  if (b.scene()[middle].parent != start || b.scene()[end].parent != middle) {
+    b.fail(codes::kNotAChain, {},
+           fmt::format("a two-bone limb takes three joints that hang directly under one another; {} and {} do not",
+                       traversal::describe(b.scene(), middle), traversal::describe(b.scene(), end)));
+    return limb;
+  }
+  const Vec3 p0 = position(b, start), p1 = position(b, middle), p2 = position(b, end);
+  const double upper = math::length(p1 - p0), lower = math::length(p2 - p1);
+  limb.length = upper + lower;
+  if (std::min(upper, lower) < 1e-6 * b.character().height ||
+      math::length(p2 - p0) < 1e-6 * limb.length) {
+    b.fail(codes::kZeroLengthBone, {},
+           fmt::format("the limb from {} to {} has a bone of no length, or ends where it starts",
+                       traversal::describe(b.scene(), start), traversal::describe(b.scene(), end)));
+    return limb;
+  }
+  const Vec3 direction = math::normalised(p2 - p0);
+  const Vec3 deviation = perpendicular_part(p1 - p0, direction);
+  const double sine = math::length(math::cross(p1 - p0, p2 - p1)) / (upper * lower);
+  const Vec3 wanted = wanted_bend(b, bend, direction);
+  const bool bent = sine >= kBent;
+  const bool agrees =
+      math::length(deviation) > kExactlyStraight * limb.length && math::dot(deviation, wanted) > 0;
+  limb.bend = bent || agrees ? math::normalised(deviation) : wanted;
+  return limb;
+}
+
+Vec3 pole_position(const Builder& b, const TwoBone& limb, double distance) {
+  // From the middle joint's foot on the line, so that the pole lies in the limb's plane exactly.
+  const Vec3 p0 = position(b, limb.start), p2 = position(b, limb.end);
+  const Vec3 direction = math::normalised(p2 - p0);
+  const Vec3 p1 = position(b, limb.middle);
+  const Vec3 foot = p0 + direction * math::dot(p1 - p0, direction);
+  const double out = math::dot(p1 - foot, limb.bend);
+  return foot + limb.bend * (out + distance);
+}
+
+namespace {
+
+/// Stands in for a pole that nobody named: keeps the bend of the rest pose with what the limb hangs
+/// on.
+NodeId pole_anchor(Builder& b, const TwoBone& limb) {
+  const NodeId anchor = b.make({.kind = scene::Kind::transform,
+                                .role = "space",
+                                .joint = limb.middle,
+                                .parent = {},
+                                .suffix = "pole_anchor"});
+  hang(b, anchor, space_of(b, limb.start),
+       {character_axes(b), pole_position(b, limb, limb.length)});
+  return anchor;
+}
+
+}  // namespace
+
+NodeId make_two_bone(Builder& b, const TwoBone& limb, NodeId goal, NodeId pole, double twist) {
+  namespace ik2 = scene::ik2;
+  namespace transform = scene::transform;
+  const NodeId node = b.make({.kind = scene::Kind::ik_two_bone,
+                              .role = "driver",
+                              .joint = limb.start,
+                              .parent = {},
+                              .suffix = "ik"});
+  const Vec3 p0 = position(b, limb.start), p1 = position(b, limb.middle),
+             p2 = position(b, limb.end);
+  const Vec3 normal = math::normalised(math::cross(p2 - p0, limb.bend));
+  b.connect({limb.start, transform::kParent}, {node, ik2::kBase});
+  b.connect({limb.start, transform::kTranslate}, {node, ik2::kStart});
+  b.connect({limb.middle, transform::kTranslate}, {node, ik2::kMiddle});
+  b.connect({limb.end, transform::kTranslate}, {node, ik2::kEnd});
+  b.connect({limb.start, transform::kScale}, {node, ik2::kStartScale});
+  b.connect({limb.middle, transform::kScale}, {node, ik2::kMiddleScale});
+  b.set({node, ik2::kGoal}, rest(b, goal));
+  b.connect(world_of(goal), {node, ik2::kGoal});
+  b.set({node, ik2::kGoalOffset}, math::inverse(rest(b, goal)) * p2);
+  b.set({node, ik2::kTwist}, twist);
+
+  // Bone frames at rest: x along the bone, z along the bend normal.
+  const Vec3 ends[2][2] = {{p0, p1}, {p1, p2}};
+  const NodeId joints[2] = {limb.start, limb.middle};
+  for (int i = 0; i < 2; ++i) {
+    const Vec3 x = math::normalised(ends[i][1] - ends[i][0]);
+    const math::Mat3 bone = math::frame(x, math::cross(normal, x));
+    const math::Mat3 axes = math::orthonormal(rest(b, joints[i]).linear);
+    b.set({node, ik2::kOffsets, i}, math::quaternion(math::transposed(bone) * axes));
+  }
+  const NodeId base = b.scene()[limb.start].parent;
+  const math::Mat3 base_axes =
+      base.valid() ? math::orthonormal(rest(b, base).linear) : math::Mat3{};
+  b.set({node, ik2::kNormal}, math::transposed(base_axes) * normal);
+  const NodeId toward = pole.valid() ? pole : pole_anchor(b, limb);
+  b.set({node, ik2::kPole}, rest(b, toward));
+  b.connect(world_of(toward), {node, ik2::kPole});
+  return node;
+}
+
+}  // namespace rigc::modules

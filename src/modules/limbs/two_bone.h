@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// A chain of three joints as the two-bone solver sees it: shared by ik_handle and ik_fk_limb.
+// Test: tests/modules/ik_test.cpp
+#pragma once
+
+#include <string>
+
+#include "modules/steps.h"
+
+namespace rigc::modules {
+
+struct TwoBone {
+  NodeId start, middle, end;
+  math::Vec3 bend;    ///< unit, rig space, at right angles to start -> end: where the middle joint
+                      ///< bends out to
+  double length = 0;  ///< upper and lower bone, rig units
+};
+
+/// Measures the bend at rest. `bend` is the parameter: auto, forward, backward, left, right, up,
+/// down. A limb bent by 5 degrees or more keeps its plane; a straighter one bends where the
+/// parameter says (auto: backward for limbs that reach sideways, else forward), in its own plane
+/// where that agrees. Fails on bones of no length.
+TwoBone measure_two_bone(Builder& b, NodeId start, NodeId middle, NodeId end,
+                         const std::string& bend);
+
+/// Where the pole rests so that the limb stays where it is.
+math::Vec3 pole_position(const Builder& b, const TwoBone& limb, double distance);
+
+/// The solver node with everything connected. Without a pole (invalid) the limb keeps the bend of
+/// its rest pose with what it hangs on.
+NodeId make_two_bone(Builder& b, const TwoBone& limb, NodeId goal, NodeId pole,
+                     double twist_degrees);
+
+}  // namespace rigc::modules

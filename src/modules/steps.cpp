@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// Shared steps, second part: controls under zeros, hanging, driving.
+// Test: tests/modules/steps_test.cpp
+#include "modules/steps.h"
+
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "modules/codes.h"
+
+namespace rigc::modules {
+namespace {
+
+using math::Affine;
+using math::Vec3;
+using scene::Kind;
+namespace transform = scene::transform;
+namespace constraint = scene::constraint;
+
+/// Joints nearer to the middle than this, in heights of the character, are on no side.
+constexpr double kMiddle = 0.01;
+constexpr Vec3 kLeftColor{0.16, 0.42, 0.95};
+constexpr Vec3 kRightColor{0.93, 0.16, 0.18};
+constexpr Vec3 kMiddleColor{0.98, 0.82, 0.13};
+
+using Lines = std::vector<std::vector<Vec3>>;
+
+std::optional<Lines> find_shape(const Builder& b, const std::string& name) {
+  for (const tags::NamedShape& shape : b.skeleton().shapes) {
+    if (shape.name == name) return shape.lines;
+  }
+  const catalog::Shape* shape = b.catalogue().find_shape(name);
+  if (!shape) return std::nullopt;
+  Lines lines;
+  for (const auto& line : shape->lines) {
+    auto& points = lines.emplace_back();
+    for (const catalog::Point& p : line) points.push_back({p[0], p[1], p[2]});
+  }
+  return lines;
+}
+
+std::string suggest_shape(const Builder& b, const std::string& name) {
+  std::vector<std::string> names;
+  for (const tags::NamedShape& shape : b.skeleton().shapes) names.push_back(shape.name);
+  for (std::string& built_in : b.catalogue().shapes()) names.push_back(std::move(built_in));
+  return suggest(name, names);
+}
+
+/// Flattened polylines in control space: the number of points, then their coordinates, repeated.
+std::vector<double> placed(const Lines& lines, const ControlSpec& spec) {
+  const math::Quat turn = math::between({0, 1, 0}, math::normalised(spec.facing, {0, 1, 0}));
+  std::vector<double> out;
+  for (const auto& line : lines) {
+    out.push_back(static_cast<double>(line.size()));
+    for (const Vec3& point : line) {
+      const Vec3 p = math::rotate(turn, point) * spec.size + spec.offset;
+      out.insert(out.end(), {p.x, p.y, p.z});
+    }
+  }
+  return out;
+}
+
+/// Identity of the control that the same command makes on the other side.
+std::string opposite_identity(const Builder& b, NodeId control, NodeId joint) {
+  const tags::TaggedJoint* owner = b.tagged(joint);
+  const tags::TaggedJoint* holder = b.tagged(b.joint());
+  if (!owner || !holder || owner->mirror.opposite.uid == 0) return {};
+  Identity identity = b.scene()[control].identity;
+  identity.owner = owner->mirror.opposite;
+  if (holder->mirror.opposite.uid != 0) identity.holder = holder->mirror.opposite;
+  return to_text(identity);
+}
+
+void place(Builder& b, NodeId node, NodeId parent, const Affine& frame) {
+  const Affine local = parent.valid() ? math::inverse(rest(b, parent)) * frame : frame;
+  const math::Trs trs = math::decompose(local);
+  b.set({node, transform::kTranslate}, trs.translation);
+  b.set({node, transform::kRotation}, trs.rotation);
+  b.set({node, transform::kScale}, trs.scale);
+}
+
+/// The control that alone drives a joint, if one does.
+NodeId single_driver(const scene::Scene& scene, NodeId joint) {
+  const auto source = scene.source({joint, transform::kRotation});
+  if (!source || scene[source->node].kind != Kind::parent_constraint) return {};
+  if (scene[source->node].attributes[constraint::kTargets].size() != 1) return {};
+  const auto target = scene.source({source->node, constraint::kTargets, 0});
+  return target && scene[target->node].kind == Kind::control ? target->node : NodeId{};
+}
+
+}  // namespace
+
+bool is_driven(const scene::Scene& scene, NodeId node) {
+  for (const scene::Connection& connection : scene[node].inputs) {
+    if (connection.to.attribute <= transform::kRotate) return true;
+  }
+  return false;
+}
+
+NodeId root_control(const Builder& b) {
+  NodeId found;
+  for (NodeId id : b.index().made_by(b.global(), "root")) {
+    if (b.scene()[id].identity.role == "offset") found = id;
+  }
+  return found;
+}
+
+NodeId space_of(const Builder& b, NodeId joint) {
+  for (NodeId at = b.scene()[joint].parent; at.valid(); at = b.scene()[at].parent) {
+    if (b.scene()[at].kind != Kind::joint || !is_driven(b.scene(), at)) continue;
+    const NodeId control = single_driver(b.scene(), at);
+    return control.valid() ? control : at;
+  }
+  return root_control(b);
+}
+
+Target target(const Builder& b, NodeId node) { return {world_of(node), rest(b, node)}; }
+
+NodeId make_constraint(Builder& b, Kind kind, NodeId driven, const std::vector<Target>& targets,
+                       const std::vector<double>& weights, bool maintain, const std::string& role,
+                       NodeId owner) {
+  const NodeId node =
+      b.make({.kind = kind, .role = role, .joint = owner, .parent = {}, .suffix = role});
+  const Affine driven_rest = rest(b, driven);
+  b.connect({driven, transform::kParent}, {node, constraint::kParent});
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const auto element = static_cast<std::int32_t>(i);
+    b.set({node, constraint::kTargets, element}, targets[i].rest);
+    b.set({node, constraint::kWeights, element}, weights.empty() ? 1.0 : weights[i]);
+    b.set({node, constraint::kOffsets, element},
+          maintain ? math::inverse(targets[i].rest) * driven_rest : Affine{});
+    b.connect(targets[i].world, {node, constraint::kTargets, element});
+  }
+  return node;
+}
+
+void hang(Builder& b, NodeId node, NodeId space, const Affine& frame) {
+  const bool follows = space.valid() && b.scene()[space].kind == Kind::joint;
+  const NodeId parent = follows ? root_control(b) : space;
+  if (parent.valid()) b.reparent(node, parent);
+  place(b, node, parent, frame);
+  if (!follows) return;
+  const NodeId owner_constraint =
+      make_constraint(b, Kind::parent_constraint, node, {target(b, space)}, {}, true, "space");
+  b.connect({owner_constraint, constraint::kTranslate}, {node, transform::kTranslate});
+  b.connect({owner_constraint, constraint::kRotation}, {node, transform::kRotation});
+  b.connect({owner_constraint, constraint::kScale}, {node, transform::kScale});
+}
+
+ControlNodes make_control(Builder& b, const ControlSpec& spec) {
+  const auto lines = find_shape(b, spec.shape);
+  if (!lines) {
+    b.fail(codes::kUnknownShape, spec.shape_parameter,
+           fmt::format("there is no shape \"{}\"", printable(spec.shape)),
+           suggest_shape(b, spec.shape));
+    return {};
+  }
+  ControlNodes made;
+  made.zero = b.make({.kind = Kind::transform,
+                      .role = "zero",
+                      .joint = spec.joint,
+                      .parent = {},
+                      .suffix = spec.role + "_zero"});
+  hang(b, made.zero, spec.space, spec.frame);
+  made.control = b.make({.kind = Kind::control,
+                         .role = spec.role,
+                         .joint = spec.joint,
+                         .parent = made.zero,
+                         .suffix = spec.role == "control" ? "" : spec.role});
+  namespace control = scene::control;
+  b.set({made.control, control::kShape}, spec.shape);
+  b.set({made.control, control::kPoints}, placed(*lines, spec));
+  b.set({made.control, control::kColor}, spec.color);
+  b.set(
+      {made.control, control::kKeyable},
+      static_cast<double>((spec.translate ? 1 : 0) + (spec.rotate ? 2 : 0) + (spec.scale ? 4 : 0)));
+  b.set({made.control, control::kOpposite}, opposite_identity(b, made.control, spec.joint));
+  return made;
+}
+
+Vec3 side_color(const Builder& b, NodeId joint, std::string_view parameter) {
+  if (b.with().has(parameter)) return b.with().vec3(parameter);
+  const double side = math::dot(position(b, joint), b.character().left) - b.side_middle();
+  const double threshold = kMiddle * b.character().height;
+  return side > threshold ? kLeftColor : side < -threshold ? kRightColor : kMiddleColor;
+}
+
+void drive(Builder& b, NodeId joint, const Target& follows, bool translate) {
+  const NodeId node =
+      make_constraint(b, Kind::parent_constraint, joint, {follows}, {}, true, "driver", joint);
+  const NodeId parent = b.scene()[joint].parent;
+  b.connect({node, constraint::kRotation}, {joint, transform::kRotation});
+  if (translate || !parent.valid()) {
+    b.connect({node, constraint::kTranslate}, {joint, transform::kTranslate});
+  }
+  for (NodeId above = parent; above.valid(); above = b.scene()[above].parent) {
+    if (is_driven(b.scene(), above)) return;
+  }
+  b.connect({node, constraint::kScale}, {joint, transform::kScale});
+}
+
+}  // namespace rigc::modules

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// Shared steps, first part: frames from positions and the character, never from joint axes.
+// Test: tests/modules/steps_test.cpp
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "modules/codes.h"
+#include "modules/steps.h"
+
+namespace rigc::modules {
+namespace {
+
+using math::Mat3;
+using math::Vec3;
+using scene::Kind;
+
+/// Bones nearer to forward than this (cosine) take up as their second direction.
+constexpr double kForwardBone = 0.8;
+/// Shortest bone that has a direction, in heights of the character.
+constexpr double kShortest = 1e-6;
+
+std::vector<NodeId> skeleton_children(const Builder& b, NodeId joint) {
+  std::vector<NodeId> children;
+  for (NodeId child : b.scene()[joint].children) {
+    if (b.scene()[child].is_skeleton()) children.push_back(child);
+  }
+  return children;
+}
+
+/// Where the bone of a joint ends; nothing for a leaf.
+std::optional<Vec3> bone_end(const Builder& b, NodeId joint) {
+  const std::vector<NodeId> children = skeleton_children(b, joint);
+  if (children.empty()) return std::nullopt;
+  const std::string& local = b.scene()[joint].ids.local;
+  for (NodeId child : children) {
+    if (!local.empty() && b.scene()[child].ids.local == local) return position(b, child);
+  }
+  Vec3 sum;
+  for (NodeId child : children) sum = sum + position(b, child);
+  return sum * (1.0 / static_cast<double>(children.size()));
+}
+
+std::optional<Vec3> bone_vector(const Builder& b, NodeId joint) {
+  const double shortest = kShortest * b.character().height;
+  if (const auto end = bone_end(b, joint)) {
+    const Vec3 bone = *end - position(b, joint);
+    if (math::length(bone) > shortest) return bone;
+  }
+  const NodeId parent = b.scene()[joint].parent;
+  if (parent.valid()) {
+    const Vec3 bone = position(b, joint) - position(b, parent);
+    if (math::length(bone) > shortest) return bone;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+math::Affine rest(const Builder& b, NodeId node) { return b.scene().rest_world(node); }
+Vec3 position(const Builder& b, NodeId node) { return rest(b, node).origin; }
+
+Mat3 character_axes(const Builder& b) {
+  const tags::Character& c = b.character();
+  return {math::cross(c.up, c.forward), c.up, c.forward};
+}
+
+Vec3 character_direction(const Builder& b, const std::string& name) {
+  const tags::Character& c = b.character();
+  if (name == "forward") return c.forward;
+  if (name == "backward") return -c.forward;
+  if (name == "left") return c.left;
+  if (name == "right") return -c.left;
+  return name == "down" ? -c.up : c.up;
+}
+
+Vec3 bone_direction(const Builder& b, NodeId joint) {
+  const auto bone = bone_vector(b, joint);
+  return bone ? math::normalised(*bone) : b.character().up;
+}
+
+double bone_length(const Builder& b, NodeId joint) {
+  const auto bone = bone_vector(b, joint);
+  return std::max(bone ? math::length(*bone) : 0.0, 0.01 * b.character().height);
+}
+
+bool is_mirrored(const Builder& b, NodeId joint) {
+  const tags::TaggedJoint* tagged = b.tagged(joint);
+  return tagged && tagged->mirror.mirrored;
+}
+
+Mat3 bone_frame(const Builder& b, NodeId joint, Vec3 direction) {
+  const tags::Character& c = b.character();
+  const bool forward_bone = std::abs(math::dot(direction, c.forward)) > kForwardBone;
+  const Vec3 second = forward_bone ? c.up : c.forward;
+  const double sign = is_mirrored(b, joint) ? -1.0 : 1.0;
+  return math::frame(direction * sign, second * sign);
+}
+
+math::Affine oriented(const Builder& b, NodeId joint, const std::string& orient) {
+  const math::Affine at = rest(b, joint);
+  if (orient == "joint") return {math::orthonormal(at.linear), at.origin};
+  if (orient == "world") return {Mat3{}, at.origin};
+  if (orient == "bone") return {bone_frame(b, joint, bone_direction(b, joint)), at.origin};
+  return {character_axes(b), at.origin};
+}
+
+std::vector<NodeId> chain_between(Builder& b, NodeId first, NodeId last,
+                                  std::string_view parameter) {
+  std::vector<NodeId> chain;
+  for (NodeId at = last; at.valid(); at = b.scene()[at].parent) {
+    chain.push_back(at);
+    if (at == first) {
+      std::reverse(chain.begin(), chain.end());
+      return chain;
+    }
+  }
+  b.fail(codes::kNotAChain, parameter,
+         fmt::format("{} does not hang below {}", traversal::describe(b.scene(), last),
+                     traversal::describe(b.scene(), first)));
+  return {};
+}
+
+Vec3 facing(const Builder& b, NodeId joint, const Mat3& frame, const std::string& axis) {
+  if (axis == "x") return {1, 0, 0};
+  if (axis == "z") return {0, 0, 1};
+  if (axis == "bone") return math::transposed(frame) * bone_direction(b, joint);
+  return {0, 1, 0};
+}
+
+}  // namespace rigc::modules

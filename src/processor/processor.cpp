@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// Runs a command list, forwards and backwards. Test: tests/processor/processor_test.cpp
+#include "processor/processor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "processor/codes.h"
+#include "selector/selector.h"
+
+namespace rigc::processor {
+
+using scene::NodeId;
+
+Processor::Processor(const tags::TaggedSkeleton& skeleton, const CommandList& commands,
+                     const catalog::Catalogue& catalogue)
+    : skeleton_(skeleton),
+      commands_(commands),
+      catalogue_(catalogue),
+      scene_(std::make_unique<scene::Scene>()) {
+  make_joints();
+}
+
+void Processor::make_joints() {
+  scene::Journal journal;  // the skeleton is never undone
+  scene::Edit edit(*scene_, journal, &index_);
+  double low = 0, high = 0;
+  std::vector<math::Affine> worlds;
+  std::vector<NodeId> made;
+  for (std::size_t j = 0; j < skeleton_.joints.size(); ++j) {
+    const tags::TaggedJoint& joint = skeleton_.joints[j];
+    scene::Node node;
+    node.kind = scene::Kind::joint;
+    node.name = joint.name;
+    node.ids = joint.ids;
+    node.identity.owner = joint.key;
+    node.origin = {joint.span, joint.name, {}};
+    if (joint.parent >= 0) node.parent = made[static_cast<std::size_t>(joint.parent)];
+    const NodeId id = edit.make(std::move(node));
+    edit.set({id, scene::transform::kTranslate}, joint.rest.translation);
+    edit.set({id, scene::transform::kRotation}, joint.rest.rotation);
+    edit.set({id, scene::transform::kScale}, joint.rest.scale);
+    made.push_back(id);
+    const math::Affine local = math::compose(joint.rest);
+    worlds.push_back(joint.parent >= 0 ? worlds[static_cast<std::size_t>(joint.parent)] * local
+                                       : local);
+    const double side = math::dot(worlds.back().origin, skeleton_.character.left);
+    low = j == 0 ? side : std::min(low, side);
+    high = j == 0 ? side : std::max(high, side);
+  }
+  side_middle_ = 0.5 * (low + high);
+}
+
+traversal::Context Processor::context(std::size_t command) const {
+  const tags::TaggedJoint& joint = skeleton_.joints[commands_.commands[command].joint];
+  return {*scene_, index_, skeleton_.global, index_.joint(joint.key), {}};
+}
+
+std::string Processor::forecast(std::size_t command, const selector::Choice& choice,
+                                const Sources* sources) const {
+  if (!choice.made) return {};
+  for (std::size_t later = command + 1; later < commands_.commands.size(); ++later) {
+    const Command& candidate = commands_.commands[later];
+    const tags::CommandTag& tag = tag_of(skeleton_, candidate);
+    const tags::TaggedJoint& joint = skeleton_.joints[candidate.joint];
+    if (tag.module != choice.made->module && choice.made->module != "*") continue;
+    if (!choice.made->id.empty() && choice.made->id != tag.id) continue;
+    if (choice.scope == selector::Scope::group && choice.local != joint.ids.local) continue;
+    const bool here = candidate.joint == commands_.commands[command].joint;
+    if (choice.scope == selector::Scope::self && !here) continue;
+    return fmt::format(
+        "made by \"{}\" on joint \"{}\", which runs later, {}:{}; give that command an earlier "
+        "stage "
+        "or this one a later",
+        tag.id, printable(joint.name), sources ? std::string(sources->name(tag.span.file)) : "",
+        tag.span.line);
+  }
+  return {};
+}
+
+bool Processor::construct(std::size_t at, scene::Edit& edit, Diagnostics& diagnostics) {
+  const Command& command = commands_.commands[at];
+  const tags::CommandTag& tag = tag_of(skeleton_, command);
+  traversal::Context where = context(at);
+  where.forecast = [&](const selector::Choice& choice) {
+    return forecast(at, choice, &diagnostics.sources());
+  };
+  int pinned = 0;
+  for (const auto& [module, version] : skeleton_.module_pins) {
+    if (module == tag.module) pinned = version;
+  }
+  const std::size_t errors = diagnostics.errors();
+  auto bound =
+      modules::bind(tag, *command.descriptor, pinned, skeleton_.character.unit, where, diagnostics);
+  if (!bound) return false;
+  if (const auto* skipped = std::get_if<modules::Skipped>(&*bound)) {
+    diagnostics.report(
+        codes::kSkipped, tag.span,
+        fmt::format("command \"{}\" is skipped: \"{}\" finds nothing", tag.id, skipped->parameter));
+    skipped_.push_back(true);
+    return true;
+  }
+  const modules::Builder::Job job{skeleton_,    catalogue_,    index_,
+                                  tag,          command.joint, static_cast<std::uint32_t>(at),
+                                  side_middle_, diagnostics};
+  modules::Builder builder(job, std::move(std::get<modules::Parameters>(*bound)), edit);
+  command.module->construct(builder);
+  if (builder.failed() || diagnostics.errors() > errors) return false;
+  skipped_.push_back(false);
+  return true;
+}
+
+bool Processor::step(Diagnostics& diagnostics) {
+  const std::size_t at = position();
+  if (at == commands_.commands.size()) return true;
+  scene::Journal journal;
+  scene::Edit edit(*scene_, journal, &index_);
+  if (!construct(at, edit, diagnostics)) {
+    scene::Edit::undo(*scene_, journal, &index_);
+    return false;
+  }
+  journals_.push_back(std::move(journal));
+  return true;
+}
+
+bool Processor::step_back() {
+  if (journals_.empty()) return false;
+  scene::Edit::undo(*scene_, journals_.back(), &index_);
+  journals_.pop_back();
+  skipped_.pop_back();
+  return true;
+}
+
+bool Processor::step_joint(Diagnostics& diagnostics) {
+  const std::size_t end = commands_.commands.size();
+  if (position() == end) return true;
+  const std::size_t joint = commands_.commands[position()].joint;
+  while (position() < end && commands_.commands[position()].joint == joint) {
+    if (!step(diagnostics)) return false;
+  }
+  return true;
+}
+
+bool Processor::step_joint_back() {
+  if (position() == 0) return false;
+  const std::size_t joint = commands_.commands[position() - 1].joint;
+  while (position() > 0 && commands_.commands[position() - 1].joint == joint) step_back();
+  return true;
+}
+
+bool Processor::go_to(std::size_t target, Diagnostics& diagnostics) {
+  while (position() > target) step_back();
+  while (position() < target) {
+    if (!step(diagnostics)) return false;
+  }
+  return true;
+}
+
+std::vector<Processor::ResolvedArgument> Processor::resolved(std::size_t at) const {
+  using catalog::ParameterType;
+  std::vector<ResolvedArgument> out;
+  const Command& command = commands_.commands[at];
+  const tags::CommandTag& tag = tag_of(skeleton_, command);
+  for (const catalog::Parameter& parameter : command.descriptor->parameters) {
+    const bool selects =
+        parameter.type == ParameterType::node || parameter.type == ParameterType::nodes ||
+        parameter.type == ParameterType::plug || parameter.type == ParameterType::plugs;
+    const Literal* value = tag.find(parameter.name);
+    if (!value && parameter.default_value) value = &*parameter.default_value;
+    if (!selects || !value) continue;
+    const std::vector<Literal> one{*value};
+    const std::vector<Literal>& items = value->kind == Literal::Kind::list ? value->items : one;
+    for (const Literal& item : items) {
+      Diagnostics quiet;
+      const auto selector = selector::parse(item.text, item.span, quiet);
+      const auto found =
+          selector ? traversal::resolve(*selector, context(at), quiet) : std::nullopt;
+      ResolvedArgument argument{parameter.name, item.text, {}};
+      if (found) {
+        for (NodeId id : found->nodes) argument.found.push_back(traversal::describe(*scene_, id));
+      }
+      out.push_back(std::move(argument));
+    }
+  }
+  return out;
+}
+
+}  // namespace rigc::processor

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+// The rows of the table of node kinds, checked against the indices in kinds.h when compiled.
+// Test: tests/scene/kinds_test.cpp
+#include "scene/kinds.h"
+
+#include <array>
+
+namespace rigc::scene {
+
+namespace {
+
+constexpr bool kArray = true, kSingle = false, kKeyable = true, kFixed = false;
+constexpr auto kIn = Role::input, kOut = Role::output, kData = Role::data;
+
+#define RIGC_TRANSFORM_ATTRIBUTES                                                                    \
+  {"translate", Type::vec3, kIn, kSingle, kKeyable, 0, "Position in the parent's space."},           \
+      {"rotation", Type::quat, kIn, kSingle, kKeyable, 0, "Rotation in the parent's space."},        \
+      {"scale", Type::vec3, kIn, kSingle, kKeyable, 1, "Scale along the own axes."},                 \
+      {"rotate", Type::vec3, kIn, kSingle, kKeyable, 0, "The rotation as angles, X then Y then Z."}, \
+      {"visible",                                                                                    \
+       Type::number,                                                                                 \
+       kIn,                                                                                          \
+       kSingle,                                                                                      \
+       kKeyable,                                                                                     \
+       1,                                                                                            \
+       "0 hides the node and what is under it."},                                                    \
+      {"world", Type::matrix, kOut, kSingle, kFixed, 0, "Transform in the rig's space."}, {          \
+    "parent", Type::matrix, kOut, kSingle, kFixed, 0, "The parent's world."                          \
+  }
+
+constexpr AttributeSpec kTransform[] = {RIGC_TRANSFORM_ATTRIBUTES};
+
+constexpr AttributeSpec kControl[] = {
+    RIGC_TRANSFORM_ATTRIBUTES,
+    {"shape", Type::text, kData, kSingle, kFixed, 0, "Name of the shape."},
+    {"points", Type::numbers, kData, kSingle, kFixed, 0,
+     "Polylines: a count, then its points, repeated."},
+    {"color", Type::vec3, kData, kSingle, kFixed, 1, "Colour of the shape, sRGB 0 to 1."},
+    {"keyable", Type::number, kData, kSingle, kFixed, 7,
+     "What animators key: 1 translate, 2 rotate, 4 scale, added up."},
+    {"opposite", Type::text, kData, kSingle, kFixed, 0,
+     "Identity of the control on the other side."},
+};
+
+constexpr AttributeSpec kConstraint[] = {
+    {"parent", Type::matrix, kIn, kSingle, kFixed, 0, "Parent space of the driven transform."},
+    {"targets", Type::matrix, kIn, kArray, kFixed, 0, "Worlds of the targets."},
+    {"weights", Type::number, kIn, kArray, kFixed, 1,
+     "Influence of each target, relative to their sum."},
+    {"offsets", Type::matrix, kData, kArray, kFixed, 0,
+     "The driven rest as seen from each target."},
+    {"translate", Type::vec3, kOut, kSingle, kFixed, 0, "Position in the parent's space."},
+    {"rotation", Type::quat, kOut, kSingle, kFixed, 0, "Rotation in the parent's space."},
+    {"scale", Type::vec3, kOut, kSingle, kFixed, 1, "Scale relative to the parent."},
+    {"rotate", Type::vec3, kOut, kSingle, kFixed, 0, "The rotation as angles."},
+};
+
+constexpr AttributeSpec kAim[] = {
+    {"parent", Type::matrix, kIn, kSingle, kFixed, 0, "Parent space of the driven transform."},
+    {"targets", Type::matrix, kIn, kArray, kFixed, 0, "Worlds of the targets."},
+    {"weights", Type::number, kIn, kArray, kFixed, 1,
+     "Influence of each target, relative to their sum."},
+    {"position", Type::vec3, kIn, kSingle, kFixed, 0, "The driven transform's translate."},
+    {"up_target", Type::matrix, kIn, kSingle, kFixed, 0, "What up is measured by."},
+    {"up_mode", Type::number, kData, kSingle, kFixed, 0,
+     "0: up_vector in rig space; 1: toward up_target; 2: up_vector turned by up_target."},
+    {"up_vector", Type::vec3, kIn, kSingle, kFixed, 0, "Direction of up."},
+    {"offset", Type::quat, kData, kSingle, kFixed, 0,
+     "Driven rest rotation seen from the aim frame."},
+    {"rotation", Type::quat, kOut, kSingle, kFixed, 0, "Rotation in the parent's space."},
+    {"rotate", Type::vec3, kOut, kSingle, kFixed, 0, "The rotation as angles."},
+};
+
+constexpr AttributeSpec kIk2[] = {
+    {"base", Type::matrix, kIn, kSingle, kFixed, 0, "Parent space of the start joint."},
+    {"goal", Type::matrix, kIn, kSingle, kFixed, 0, "Where the end joint shall be."},
+    {"pole", Type::matrix, kIn, kSingle, kFixed, 0, "What the middle joint points at."},
+    {"twist", Type::number, kIn, kSingle, kFixed, 0, "Degrees about the line from start to goal."},
+    {"start", Type::vec3, kIn, kSingle, kFixed, 0, "Translate of the start joint."},
+    {"middle", Type::vec3, kIn, kSingle, kFixed, 0, "Translate of the middle joint."},
+    {"end", Type::vec3, kIn, kSingle, kFixed, 0, "Translate of the end joint."},
+    {"start_scale", Type::vec3, kIn, kSingle, kFixed, 1, "Scale of the start joint."},
+    {"middle_scale", Type::vec3, kIn, kSingle, kFixed, 1, "Scale of the middle joint."},
+    {"goal_offset", Type::vec3, kData, kSingle, kFixed, 0,
+     "End joint's rest position as seen from the goal."},
+    {"offsets", Type::quat, kData, kArray, kFixed, 0,
+     "Rest rotations of the joints seen from their bone frames."},
+    {"normal", Type::vec3, kData, kSingle, kFixed, 0,
+     "Bend normal in base space where the pole gives none."},
+    {"start_world", Type::matrix, kOut, kSingle, kFixed, 0, "Solved world of the start joint."},
+    {"middle_world", Type::matrix, kOut, kSingle, kFixed, 0, "Solved world of the middle joint."},
+};
+
+constexpr AttributeSpec kIkChain[] = {
+    {"base", Type::matrix, kIn, kSingle, kFixed, 0, "Parent space of the first joint."},
+    {"goal", Type::matrix, kIn, kSingle, kFixed, 0, "Where the last joint shall be."},
+    {"pole", Type::matrix, kIn, kSingle, kFixed, 0, "What the bend points at."},
+    {"has_pole", Type::number, kData, kSingle, kFixed, 0, "1 where the pole counts."},
+    {"twist", Type::number, kIn, kSingle, kFixed, 0,
+     "Degrees about the line from the first joint to the goal."},
+    {"translates", Type::vec3, kIn, kArray, kFixed, 0, "Translates of the joints, first to last."},
+    {"rests", Type::quat, kData, kArray, kFixed, 0, "Rest rotations of the joints."},
+    {"iterations", Type::number, kData, kSingle, kFixed, 32, "Passes of the solver."},
+    {"goal_offset", Type::vec3, kData, kSingle, kFixed, 0,
+     "Last joint's rest position as seen from the goal."},
+    {"rotations", Type::quat, kOut, kArray, kFixed, 0,
+     "Solved rotations of all joints but the last."},
+};
+
+constexpr AttributeSpec kExpression[] = {
+    {"code", Type::text, kData, kSingle, kFixed, 0, "The formula; $0, $1, ... are the inputs."},
+    {"inputs", Type::number, kIn, kArray, kFixed, 0, "What the formula reads."},
+    {"output", Type::number, kOut, kSingle, kFixed, 0, "The result."},
+};
+
+constexpr AttributeSpec kRemap[] = {
+    {"input", Type::number, kIn, kSingle, kFixed, 0, "What is mapped."},
+    {"input_min", Type::number, kIn, kSingle, kFixed, 0, "Input at the curve's start."},
+    {"input_max", Type::number, kIn, kSingle, kFixed, 1, "Input at the curve's end."},
+    {"output_min", Type::number, kIn, kSingle, kFixed, 0, "Output where the curve is 0."},
+    {"output_max", Type::number, kIn, kSingle, kFixed, 1, "Output where the curve is 1."},
+    {"points", Type::numbers, kData, kSingle, kFixed, 0,
+     "Position, value, interpolation of each point of the curve."},
+    {"clamp", Type::number, kData, kSingle, kFixed, 1, "1 holds the ends, 0 extends them in line."},
+    {"output", Type::number, kOut, kSingle, kFixed, 0, "The result."},
+};
+
+constexpr AttributeSpec kMesh[] = {
+    {"joints", Type::matrix, kIn, kArray, kFixed, 0, "Worlds of the joints."},
+    {"parts", Type::numbers, kData, kSingle, kFixed, 0,
+     "Style, ends, side, sizes and colour of each part."},
+};
+
+constexpr std::array<KindSpec, static_cast<std::size_t>(Kind::count)> kKinds = {{
+    {Kind::joint, "joint", true, kTransform},
+    {Kind::transform, "transform", true, kTransform},
+    {Kind::control, "control", true, kControl},
+    {Kind::handle, "handle", true, kTransform},
+    {Kind::point_constraint, "point_constraint", false, kConstraint},
+    {Kind::orient_constraint, "orient_constraint", false, kConstraint},
+    {Kind::scale_constraint, "scale_constraint", false, kConstraint},
+    {Kind::parent_constraint, "parent_constraint", false, kConstraint},
+    {Kind::aim_constraint, "aim_constraint", false, kAim},
+    {Kind::ik_two_bone, "ik_two_bone", false, kIk2},
+    {Kind::ik_chain, "ik_chain", false, kIkChain},
+    {Kind::expression, "expression", false, kExpression},
+    {Kind::remap, "remap", false, kRemap},
+    {Kind::mesh, "mesh", false, kMesh},
+}};
+
+constexpr bool complete() {
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    if (static_cast<std::size_t>(kKinds[i].kind) != i || kKinds[i].name.empty()) return false;
+  }
+  return true;
+}
+static_assert(complete());
+
+// A name at each index that kinds.h gives: the two cannot drift apart.
+struct At {
+  std::uint16_t index;
+  std::string_view name;
+};
+template <std::size_t n, std::size_t m>
+constexpr bool matches(const AttributeSpec (&table)[n], const At (&indices)[m]) {
+  for (const At& at : indices) {
+    if (at.index >= n || table[at.index].name != at.name) return false;
+  }
+  return true;
+}
+
+constexpr At kTransformAt[] = {
+    {transform::kTranslate, "translate"}, {transform::kRotation, "rotation"},
+    {transform::kScale, "scale"},         {transform::kRotate, "rotate"},
+    {transform::kVisible, "visible"},     {transform::kWorld, "world"},
+    {transform::kParent, "parent"}};
+static_assert(std::size(kTransform) == transform::kCount &&
+              std::size(kTransformAt) == transform::kCount);
+static_assert(matches(kTransform, kTransformAt) && matches(kControl, kTransformAt));
+
+constexpr At kControlAt[] = {{control::kShape, "shape"},
+                             {control::kPoints, "points"},
+                             {control::kColor, "color"},
+                             {control::kKeyable, "keyable"},
+                             {control::kOpposite, "opposite"}};
+static_assert(std::size(kControl) == transform::kCount + std::size(kControlAt) &&
+              matches(kControl, kControlAt));
+
+constexpr At kConstraintAt[] = {
+    {constraint::kParent, "parent"},       {constraint::kTargets, "targets"},
+    {constraint::kWeights, "weights"},     {constraint::kOffsets, "offsets"},
+    {constraint::kTranslate, "translate"}, {constraint::kRotation, "rotation"},
+    {constraint::kScale, "scale"},         {constraint::kRotate, "rotate"}};
+static_assert(std::size(kConstraint) == std::size(kConstraintAt) &&
+              matches(kConstraint, kConstraintAt));
+
+constexpr At kAimAt[] = {{aim::kParent, "parent"},      {aim::kTargets, "targets"},
+                         {aim::kWeights, "weights"},    {aim::kPosition, "position"},
+                         {aim::kUpTarget, "up_target"}, {aim::kUpMode, "up_mode"},
+                         {aim::kUpVector, "up_vector"}, {aim::kOffset, "offset"},
+                         {aim::kRotation, "rotation"},  {aim::kRotate, "rotate"}};
+static_assert(std::size(kAim) == std::size(kAimAt) && matches(kAim, kAimAt));
+
+constexpr At kIk2At[] = {{ik2::kBase, "base"},
+                         {ik2::kGoal, "goal"},
+                         {ik2::kPole, "pole"},
+                         {ik2::kTwist, "twist"},
+                         {ik2::kStart, "start"},
+                         {ik2::kMiddle, "middle"},
+                         {ik2::kEnd, "end"},
+                         {ik2::kStartScale, "start_scale"},
+                         {ik2::kMiddleScale, "middle_scale"},
+                         {ik2::kGoalOffset, "goal_offset"},
+                         {ik2::kOffsets, "offsets"},
+                         {ik2::kNormal, "normal"},
+                         {ik2::kStartWorld, "start_world"},
+                         {ik2::kMiddleWorld, "middle_world"}};
+static_assert(std::size(kIk2) == std::size(kIk2At) && matches(kIk2, kIk2At));
+
+constexpr At kIkChainAt[] = {{ik_chain::kBase, "base"},
+                             {ik_chain::kGoal, "goal"},
+                             {ik_chain::kPole, "pole"},
+                             {ik_chain::kHasPole, "has_pole"},
+                             {ik_chain::kTwist, "twist"},
+                             {ik_chain::kTranslates, "translates"},
+                             {ik_chain::kRests, "rests"},
+                             {ik_chain::kIterations, "iterations"},
+                             {ik_chain::kGoalOffset, "goal_offset"},
+                             {ik_chain::kRotations, "rotations"}};
+static_assert(std::size(kIkChain) == std::size(kIkChainAt) && matches(kIkChain, kIkChainAt));
+
+constexpr At kExpressionAt[] = {
+    {expression::kCode, "code"}, {expression::kInputs, "inputs"}, {expression::kOutput, "output"}};
+static_assert(std::size(kExpression) == std::size(kExpressionAt) &&
+              matches(kExpression, kExpressionAt));
+
+constexpr At kRemapAt[] = {{remap::kInput, "input"},          {remap::kInputMin, "input_min"},
+                           {remap::kInputMax, "input_max"},   {remap::kOutputMin, "output_min"},
+                           {remap::kOutputMax, "output_max"}, {remap::kPoints, "points"},
+                           {remap::kClamp, "clamp"},          {remap::kOutput, "output"}};
+static_assert(std::size(kRemap) == std::size(kRemapAt) && matches(kRemap, kRemapAt));
+
+constexpr At kMeshAt[] = {{mesh::kJoints, "joints"}, {mesh::kParts, "parts"}};
+static_assert(std::size(kMesh) == std::size(kMeshAt) && matches(kMesh, kMeshAt));
+
+}  // namespace
+
+const KindSpec& spec(Kind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
+
+std::optional<Kind> parse_kind(std::string_view name) {
+  for (const KindSpec& row : kKinds) {
+    if (row.name == name) return row.kind;
+  }
+  return std::nullopt;
+}
+
+}  // namespace rigc::scene

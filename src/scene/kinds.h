@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// The table of node kinds: what a node of each kind takes, gives and stores. A new kind is one row
+// here and one kernel in eval. Test: tests/scene/kinds_test.cpp
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "scene/value.h"
+
+namespace rigc::scene {
+
+enum class Kind : std::uint8_t {
+  joint,      ///< a bone of the skeleton, or one that a command made
+  transform,  ///< a plain transform: zeros, spaces
+  control,    ///< a transform that animators key, with a shape
+  handle,     ///< a transform that shows where a solver's goal is
+  point_constraint,
+  orient_constraint,
+  scale_constraint,
+  parent_constraint,
+  aim_constraint,
+  ik_two_bone,
+  ik_chain,
+  expression,
+  remap,
+  mesh,  ///< a proxy mesh bound rigidly to joints; data only
+  count
+};
+
+/// What an attribute is for.
+enum class Role : std::uint8_t {
+  input,   ///< set, keyed or connected
+  output,  ///< computed; never set or connected into
+  data     ///< set by the constructor, constant while the rig runs
+};
+
+struct AttributeSpec {
+  std::string_view name;
+  Type type;
+  Role role;
+  bool array = false;    ///< a list of values; plugs name an element
+  bool keyable = false;  ///< animators may key it (on controls)
+  double initial = 0;    ///< number: the default; vec3: all three; quat and matrix: identity
+  std::string_view help = {};
+};
+
+struct KindSpec {
+  Kind kind;
+  std::string_view name;
+  bool is_transform;  ///< has the attributes of namespace transform below and a place in the
+                      ///< hierarchy
+  std::span<const AttributeSpec> attributes;
+};
+
+const KindSpec& spec(Kind kind);
+std::optional<Kind> parse_kind(std::string_view name);
+
+/// Attribute indices that every transform kind shares.
+/// world = parent.world * T * R * S. `rotate` is the Euler view of `rotation` (degrees, X then Y
+/// then Z about fixed axes): reading it gives the angles; a connection into it, or into a
+/// component, overrides `rotation`.
+namespace transform {
+inline constexpr std::uint16_t kTranslate = 0;  ///< vec3, parent space
+inline constexpr std::uint16_t kRotation = 1;   ///< quat, parent space
+inline constexpr std::uint16_t kScale = 2;      ///< vec3
+inline constexpr std::uint16_t kRotate = 3;     ///< vec3, degrees: Euler view
+inline constexpr std::uint16_t kVisible = 4;    ///< number 0 or 1
+inline constexpr std::uint16_t kWorld = 5;      ///< matrix, output, rig space
+inline constexpr std::uint16_t kParent =
+    6;  ///< matrix, output: the parent's world; identity for roots
+inline constexpr std::uint16_t kCount = 7;
+}  // namespace transform
+
+/// Attributes of a control after the shared ones: data that viewers draw.
+namespace control {
+inline constexpr std::uint16_t kShape = 7;  ///< text: name of the shape
+inline constexpr std::uint16_t kPoints =
+    8;  ///< numbers: polylines, flattened: count, x, y, z, ... repeated; control space
+inline constexpr std::uint16_t kColor = 9;      ///< vec3, sRGB 0..1
+inline constexpr std::uint16_t kKeyable = 10;   ///< number: bits 1 translate, 2 rotate, 4 scale
+inline constexpr std::uint16_t kOpposite = 11;  ///< text: identity of the control on the other side
+}  // namespace control
+
+/// A constraint with weighted targets. All matrices in rig space. Output goes to the driven
+/// transform.
+namespace constraint {
+inline constexpr std::uint16_t kParent = 0;   ///< matrix, input: the driven transform's `parent`
+inline constexpr std::uint16_t kTargets = 1;  ///< matrix[], input: worlds of the targets
+inline constexpr std::uint16_t kWeights =
+    2;  ///< number[], input, one each; used relative to their sum (all 0: equal)
+inline constexpr std::uint16_t kOffsets =
+    3;  ///< matrix[], data: rest(target)^-1 * rest(driven) where the offset is kept
+inline constexpr std::uint16_t kTranslate = 4;  ///< vec3, output, parent space
+inline constexpr std::uint16_t kRotation = 5;   ///< quat, output, parent space
+inline constexpr std::uint16_t kScale = 6;      ///< vec3, output
+inline constexpr std::uint16_t kRotate =
+    7;  ///< vec3, output: Euler view of rotation, for per-axis use
+}  // namespace constraint
+
+/// Aims an axis of the driven transform at the weighted mean of targets; the second axis toward up.
+namespace aim {
+inline constexpr std::uint16_t kParent = 0;    ///< matrix, input
+inline constexpr std::uint16_t kTargets = 1;   ///< matrix[], input
+inline constexpr std::uint16_t kWeights = 2;   ///< number[], input
+inline constexpr std::uint16_t kPosition = 3;  ///< vec3, input: the driven transform's translate
+inline constexpr std::uint16_t kUpTarget = 4;  ///< matrix, input: used where up_mode is 1 (toward
+                                               ///< its origin) or 2 (its rotation times up_vector)
+inline constexpr std::uint16_t kUpMode = 5;    ///< number, data: 0 up_vector in rig space, 1, 2
+inline constexpr std::uint16_t kUpVector = 6;  ///< vec3, input
+inline constexpr std::uint16_t kOffset =
+    7;  ///< quat, data: driven rest rotation seen from the aim frame (x at target, y up)
+inline constexpr std::uint16_t kRotation = 8;  ///< quat, output, parent space
+inline constexpr std::uint16_t kRotate = 9;    ///< vec3, output
+}  // namespace aim
+
+/// Analytic two-bone IK. Lengths are measured from the live translates, so length changes are
+/// honoured. The frame of a bone has x along the bone and z along the bend normal (cross(end -
+/// start, pole - start)); offsets hold the joints' rest rotations seen from these frames, so no
+/// joint axis is assumed.
+namespace ik2 {
+inline constexpr std::uint16_t kBase = 0;    ///< matrix, input: `parent` of the start joint
+inline constexpr std::uint16_t kGoal = 1;    ///< matrix, input: goal for the end joint's position
+inline constexpr std::uint16_t kPole = 2;    ///< matrix, input: its origin is the pole
+inline constexpr std::uint16_t kTwist = 3;   ///< number, input: degrees about start -> goal, added
+inline constexpr std::uint16_t kStart = 4;   ///< vec3, input: translate of the start joint
+inline constexpr std::uint16_t kMiddle = 5;  ///< vec3, input: translate of the middle joint
+inline constexpr std::uint16_t kEnd = 6;     ///< vec3, input: translate of the end joint
+inline constexpr std::uint16_t kStartScale = 7;   ///< vec3, input: scale of the start joint
+inline constexpr std::uint16_t kMiddleScale = 8;  ///< vec3, input: scale of the middle joint
+inline constexpr std::uint16_t kGoalOffset =
+    9;  ///< vec3, data: end joint's rest position in the goal's rest space
+inline constexpr std::uint16_t kOffsets =
+    10;  ///< quat[2], data: joint rest rotation seen from its bone frame
+inline constexpr std::uint16_t kNormal =
+    11;  ///< vec3, data: bend normal in base space where the pole does not say one
+inline constexpr std::uint16_t kStartWorld =
+    12;  ///< matrix, output: solved world of the start joint
+inline constexpr std::uint16_t kMiddleWorld =
+    13;  ///< matrix, output: solved world of the middle joint
+}  // namespace ik2
+
+/// Iterative IK for a chain of n joints (FABRIK, Aristidou 2011, fixed number of iterations),
+/// started from the rest pose each frame, so that a frame's result does not depend on the frame
+/// before.
+namespace ik_chain {
+inline constexpr std::uint16_t kBase = 0;     ///< matrix, input: `parent` of the first joint
+inline constexpr std::uint16_t kGoal = 1;     ///< matrix, input
+inline constexpr std::uint16_t kPole = 2;     ///< matrix, input; used where has_pole is 1
+inline constexpr std::uint16_t kHasPole = 3;  ///< number, data
+inline constexpr std::uint16_t kTwist = 4;    ///< number, input: degrees
+inline constexpr std::uint16_t kTranslates =
+    5;  ///< vec3[n], input: translates of the joints, first to last
+inline constexpr std::uint16_t kRests = 6;       ///< quat[n], data: rest rotations, parent space
+inline constexpr std::uint16_t kIterations = 7;  ///< number, data
+inline constexpr std::uint16_t kGoalOffset =
+    8;  ///< vec3, data: last joint's rest position in the goal's rest space
+inline constexpr std::uint16_t kRotations = 9;  ///< quat[n - 1], output, parent spaces
+}  // namespace ik_chain
+
+/// output = the expression in `code` over `inputs`: `$0`, `$1`, ... stand for inputs in the code.
+namespace expression {
+inline constexpr std::uint16_t kCode = 0;    ///< text, data
+inline constexpr std::uint16_t kInputs = 1;  ///< number[], input
+inline constexpr std::uint16_t kOutput = 2;  ///< number, output
+}  // namespace expression
+
+/// A curve of points over a normalised input: output = output_min + curve((input - input_min) /
+/// range) * range.
+namespace remap {
+inline constexpr std::uint16_t kInput = 0;      ///< number, input
+inline constexpr std::uint16_t kInputMin = 1;   ///< number, input
+inline constexpr std::uint16_t kInputMax = 2;   ///< number, input, default 1
+inline constexpr std::uint16_t kOutputMin = 3;  ///< number, input
+inline constexpr std::uint16_t kOutputMax = 4;  ///< number, input, default 1
+inline constexpr std::uint16_t kPoints =
+    5;  ///< numbers, data: position, value, interpolation (0 none, 1 linear, 2 smooth, 3 spline)
+        ///< each; positions rise
+inline constexpr std::uint16_t kClamp =
+    6;  ///< number, data: 1 clamps the input to its range, 0 extends the ends linearly
+inline constexpr std::uint16_t kOutput = 7;  ///< number, output
+}  // namespace remap
+
+/// Rigid boxes and capsules, each bound to one joint.
+namespace mesh {
+inline constexpr std::uint16_t kJoints =
+    0;  ///< matrix[], input: worlds of the joints (a connection names the joint)
+inline constexpr std::uint16_t kParts =
+    1;  ///< numbers, data: for each joint: style (0 capsule, 1 box), head xyz, tail xyz, side xyz
+        ///< (unit), width, depth, color rgb; joint space
+}  // namespace mesh
+
+}  // namespace rigc::scene

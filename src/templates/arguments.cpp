@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+// Arguments against declarations. Descriptors check types and ranges (catalog::mismatch); here come names,
+// selectors, versions and parameters. Test: tests/templates/arguments_test.cpp
+#include "templates/arguments.h"
+
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "selector/selector.h"
+#include "templates/codes.h"
+
+namespace rigc::templates {
+namespace {
+
+using catalog::Parameter;
+using catalog::ParameterType;
+
+/// The three parameters of every command that makes nodes.
+const std::vector<Parameter>& creation_parameters() {
+  static const std::vector<Parameter> kParameters = [] {
+    std::vector<Parameter> parameters(3);
+    const char* const names[] = {"name", "local", "label"};
+    for (std::size_t i = 0; i < 3; ++i) {
+      parameters[i].name = names[i];
+      parameters[i].type = ParameterType::text;
+    }
+    return parameters;
+  }();
+  return kParameters;
+}
+
+std::vector<std::string> parameter_names(const catalog::Descriptor& descriptor) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : descriptor.parameters) names.push_back(parameter.name);
+  if (descriptor.makes_nodes())
+    for (const Parameter& parameter : creation_parameters()) names.push_back(parameter.name);
+  return names;
+}
+
+bool contains_parameter(const Literal& value) {
+  if (!parameter_name(value).empty()) return true;
+  for (const Literal& item : value.items)
+    if (contains_parameter(item)) return true;
+  for (const auto& entry : value.entries)
+    if (contains_parameter(entry.second)) return true;
+  return false;
+}
+
+bool check_declared(const Literal& value, const Template& owner, Diagnostics& diagnostics) {
+  bool ok = true;
+  const std::string_view name = parameter_name(value);
+  if (!name.empty() && !owner.find_parameter(name)) {
+    std::vector<std::string> declared;
+    for (const Parameter& parameter : owner.parameters) declared.push_back(parameter.name);
+    diagnostics.report(codes::kUnknownParameter, value.span,
+                       fmt::format("the template has no parameter \"{}\"", name),
+                       suggest(name, declared));
+    ok = false;
+  }
+  for (const Literal& item : value.items) ok &= check_declared(item, owner, diagnostics);
+  for (const auto& entry : value.entries) ok &= check_declared(entry.second, owner, diagnostics);
+  return ok;
+}
+
+bool check_selector(const Parameter& parameter, const Literal& value, Diagnostics& diagnostics) {
+  const auto selector =
+      selector::parse(value.text, text_span(value, diagnostics.sources()), diagnostics);
+  if (!selector) return false;
+  const bool plug =
+      parameter.type == ParameterType::plug || parameter.type == ParameterType::plugs;
+  bool ok = true;
+  for (const selector::Choice& choice : selector->choices) {
+    if (plug && choice.attribute.empty()) {
+      diagnostics.report(codes::kPlugNeedsAttribute, choice.span,
+                         fmt::format("{} takes an attribute, not a node", parameter.name),
+                         fmt::format("add @ and the attribute's name: {}@translate.x",
+                                     printable(trim(value.text), 60)));
+      ok = false;
+    } else if (!plug && !choice.attribute.empty()) {
+      diagnostics.report(codes::kNodeWithAttribute, choice.span,
+                         fmt::format("{} takes a node, not an attribute", parameter.name),
+                         fmt::format("remove @{}", choice.attribute));
+      ok = false;
+    }
+  }
+  return ok;
+}
+
+/// Today's name of a parameter that was called `name` at some version since the pinned one.
+std::string current_name(const catalog::Descriptor& descriptor, int pinned, std::string name) {
+  for (const catalog::Change& change : descriptor.changes)
+    if (change.version > pinned && !change.was.empty() && change.was == name)
+      name = change.parameter;
+  return name;
+}
+
+int pinned_version(const Template& owner, const catalog::Descriptor& descriptor) {
+  for (const auto& [module, version] : owner.module_pins)
+    if (module == descriptor.module) return version;
+  return descriptor.version;
+}
+
+bool check_argument(const catalog::Descriptor& descriptor, const Template& owner,
+                    tags::Argument& argument, Diagnostics& diagnostics) {
+  const Parameter* parameter = declaration(descriptor, argument.name);
+  if (!parameter) {
+    diagnostics.report(codes::kUnknownArgument, argument.span,
+                       fmt::format("{} has no parameter \"{}\"", descriptor.module,
+                                   printable(argument.name, 60)),
+                       suggest(argument.name, parameter_names(descriptor)));
+    return false;
+  }
+  if (contains_parameter(argument.value)) return check_declared(argument.value, owner, diagnostics);
+  to_metres(*parameter, owner.metres_per_unit, argument.value);
+  return check_value(*parameter, argument.value, diagnostics);
+}
+
+int compare(const Literal& a, const Literal& b) {
+  if (a.kind == Literal::Kind::number && b.kind == Literal::Kind::number)
+    return a.number < b.number ? -1 : a.number > b.number ? 1 : 0;
+  return a == b ? 0 : 1;
+}
+
+}  // namespace
+
+std::string_view parameter_name(const Literal& value) {
+  if (value.kind != Literal::Kind::text || value.text.size() < 2 || value.text[0] != '$') return {};
+  const std::string_view name = std::string_view(value.text).substr(1);
+  return is_name(name) ? name : std::string_view();
+}
+
+bool substitute(Literal& value, const Environment& environment) {
+  bool changed = false;
+  if (const std::string_view name = parameter_name(value); !name.empty()) {
+    const auto found = environment.find(name);
+    if (found == environment.end()) return false;
+    const Span span = value.span;
+    value = found->second;
+    value.span = span;
+    return true;
+  }
+  for (Literal& item : value.items) changed |= substitute(item, environment);
+  for (auto& entry : value.entries) changed |= substitute(entry.second, environment);
+  return changed;
+}
+
+const Parameter* declaration(const catalog::Descriptor& descriptor, std::string_view argument) {
+  if (const Parameter* parameter = descriptor.find(argument)) return parameter;
+  if (descriptor.makes_nodes())
+    for (const Parameter& parameter : creation_parameters())
+      if (parameter.name == argument) return &parameter;
+  return nullptr;
+}
+
+void check_arguments(const catalog::Descriptor& descriptor, const Template& owner,
+                     tags::CommandTag& command, Diagnostics& diagnostics) {
+  const int pinned = pinned_version(owner, descriptor);
+  for (tags::Argument& argument : command.with) {
+    if (pinned < descriptor.version)
+      argument.name = current_name(descriptor, pinned, argument.name);
+    check_argument(descriptor, owner, argument, diagnostics);
+  }
+  for (const Parameter& parameter : descriptor.parameters) {
+    if (!parameter.required || command.find(parameter.name)) continue;
+    diagnostics.report(
+        codes::kMissingArgument, command.span,
+        fmt::format("{} needs the parameter \"{}\"", descriptor.module, parameter.name),
+        parameter.help);
+  }
+}
+
+bool check_value(const Parameter& parameter, const Literal& value, Diagnostics& diagnostics) {
+  if (const auto mismatch = catalog::mismatch(parameter, value)) {
+    diagnostics.report(codes::kArgumentValue, mismatch->span, mismatch->message, mismatch->hint);
+    return false;
+  }
+  switch (parameter.type) {
+    case ParameterType::node:
+    case ParameterType::nodes:
+    case ParameterType::plug:
+    case ParameterType::plugs: {
+      if (value.kind != Literal::Kind::list) return check_selector(parameter, value, diagnostics);
+      bool ok = true;
+      for (const Literal& item : value.items) ok &= check_selector(parameter, item, diagnostics);
+      return ok;
+    }
+    case ParameterType::expression:
+      return value.kind != Literal::Kind::text ||
+             selector::parse_expression(value.text, text_span(value, diagnostics.sources()),
+                                        diagnostics)
+                 .has_value();
+    default:
+      break;
+  }
+  if ((parameter.name == "local" || parameter.name == "label") &&
+      parameter.type == ParameterType::text && !is_name(value.text)) {
+    diagnostics.report(codes::kArgumentValue, value.span,
+                       fmt::format("{}: \"{}\" is not a name", parameter.name,
+                                   printable(value.text, 60)),
+                       "names have letters, digits, `_` and `-`, and do not start with a digit or `-`");
+    return false;
+  }
+  return true;
+}
+
+void to_metres(const Parameter& parameter, double metres_per_unit, Literal& value) {
+  const bool length = parameter.type == ParameterType::length ||
+                      (parameter.type == ParameterType::vec3 && parameter.unit == "metre");
+  if (!length || metres_per_unit == 1) return;
+  if (value.kind == Literal::Kind::number) {
+    value.number *= metres_per_unit;
+    value.text = number_text(value.number);
+  }
+  for (Literal& item : value.items) {
+    if (item.kind != Literal::Kind::number) continue;
+    item.number *= metres_per_unit;
+    item.text = number_text(item.number);
+  }
+}
+
+Span text_span(const Literal& text, const Sources& sources) {
+  Span span = text.span;
+  const std::string_view line = sources.line(span.file, span.line);
+  if (span.column >= 1 && span.column <= line.size()) {
+    const char first = line[span.column - 1];
+    if ((first == '"' || first == '\'') && (text.text.empty() || text.text[0] != first))
+      ++span.column;
+  }
+  return span;
+}
+
+bool holds(const Condition& condition, const Environment& environment) {
+  const auto found = environment.find(condition.parameter);
+  if (found == environment.end()) return false;
+  const Literal& value = found->second;
+  using Operator = Condition::Operator;
+  const bool truth = value.kind == Literal::Kind::boolean ? value.flag
+                     : value.kind == Literal::Kind::number ? value.number != 0
+                                                           : !value.text.empty();
+  switch (condition.op) {
+    case Operator::is_true: return truth;
+    case Operator::is_false: return !truth;
+    case Operator::equal: return compare(value, condition.value) == 0;
+    case Operator::not_equal: return compare(value, condition.value) != 0;
+    case Operator::less: return compare(value, condition.value) < 0;
+    case Operator::less_equal: return compare(value, condition.value) <= 0;
+    case Operator::greater: return compare(value, condition.value) > 0;
+    case Operator::greater_equal: return compare(value, condition.value) >= 0;
+  }
+  return false;
+}
+
+}  // namespace rigc::templates

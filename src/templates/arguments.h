@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Arguments against declarations: of commands against descriptors, of parts against `parameters:`; and the
+// values that `$name` stands for. Test: tests/templates/arguments_test.cpp
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "catalog/descriptor.h"
+#include "templates/template.h"
+
+namespace rigc::templates {
+
+/// Values of a template's parameters, for one use of it.
+using Environment = std::map<std::string, Literal, std::less<>>;
+
+/// The name in a text `$name`; empty where the value is anything else.
+std::string_view parameter_name(const Literal& value);
+
+/// Replaces every `$name` inside by its value, which keeps the place of the `$name`. True if there was any.
+bool substitute(Literal& value, const Environment& environment);
+
+/// The declaration of an argument: of the descriptor, or `name`, `local`, `label` where it makes nodes.
+const catalog::Parameter* declaration(const catalog::Descriptor& descriptor, std::string_view argument);
+
+/// Checks all arguments of a command as written. Names of earlier versions (`changes:`) up to the pinned one become
+/// today's, lengths become metres. Values with `$name` are checked by check_value once they are known.
+void check_arguments(const catalog::Descriptor& descriptor, const Template& owner, tags::CommandTag& command,
+                     Diagnostics& diagnostics);
+
+/// Type, range, choice, selector and expression syntax of one value.
+bool check_value(const catalog::Parameter& parameter, const Literal& value, Diagnostics& diagnostics);
+
+/// Lengths, and vectors in metres, from the file's unit.
+void to_metres(const catalog::Parameter& parameter, double metres_per_unit, Literal& value);
+
+/// Where the text of a scalar begins: behind its opening quote.
+Span text_span(const Literal& text, const Sources& sources);
+
+bool holds(const Condition& condition, const Environment& environment);
+
+}  // namespace rigc::templates

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Template -> Expanded: parts joined, parameters put in, names, groups, selectors and uids made final,
+// joints in order. Chains are still whole, so that place() and fit() can give them any count.
+// Test: tests/templates/expand_test.cpp
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "templates/library.h"
+#include "templates/template.h"
+
+namespace rigc::templates {
+
+/// One use of a template; instance 0 is the main one.
+struct Instance {
+  int outer = -1;                  ///< the instance that holds the part
+  std::string path;                ///< `arm_l/hand`; empty for the main template
+  math::Vec3 at;                   ///< origin in the outer instance's model space
+  math::Quat rotation;
+  double size = 1;
+  std::optional<int> mirror;       ///< axis of the outer model space
+};
+
+struct ExpandedJoint {
+  tags::TaggedJoint tagged;        ///< rest is not set; of a chain: its first joint; parent indexes Expanded::joints
+  Placement placement;             ///< in the instance's model space
+  std::optional<Chain> chain;      ///< its count is final
+  bool helper = false;
+  int toward = -1;                 ///< the joint that `orient` aims at; -1: none
+  int opposite = -1;               ///< index of the joint on the other side
+  int instance = 0;
+  std::size_t ordinal_in_template = 0;   ///< index into the joints of the instance's template
+};
+
+struct Expanded {
+  tags::TaggedSkeleton skeleton;   ///< everything but joints and character
+  std::vector<Instance> instances;
+  std::vector<ExpandedJoint> joints;   ///< parents first, in document order
+};
+
+std::optional<Expanded> expand(const Template& main, Library& library,
+                               const catalog::Catalogue& catalogue, Diagnostics& diagnostics);
+
+/// The template's own skeleton, in its own proportions.
+std::optional<tags::TaggedSkeleton> place(const Expanded& expanded, Diagnostics& diagnostics);
+
+}  // namespace rigc::templates

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Reads where a joint stands: at, translate, rotate, quat, orient, scale, chain.
+// Test: tests/templates/read_test.cpp
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "templates/arguments.h"
+#include "templates/codes.h"
+#include "templates/reader.h"
+
+namespace rigc::templates {
+namespace {
+
+constexpr int kMostInChain = 1000;
+
+std::optional<math::Vec3> read_axis(Reader& reader, const yaml::Node& node, std::string_view what) {
+  const auto text = yaml::as_text(node, what, reader.diagnostics);
+  if (!text) return std::nullopt;
+  static const std::vector<std::string> kAxes = {"+x", "-x", "+y", "-y", "+z", "-z"};
+  std::string_view axis = *text;
+  double sign = 1;
+  if (starts_with(axis, "+") || starts_with(axis, "-")) {
+    sign = axis[0] == '-' ? -1 : 1;
+    axis.remove_prefix(1);
+  }
+  if (axis == "x") return math::Vec3{sign, 0, 0};
+  if (axis == "y") return math::Vec3{0, sign, 0};
+  if (axis == "z") return math::Vec3{0, 0, sign};
+  reader.error(codes::kUnknownWord, node.span,
+               fmt::format("{}: \"{}\" is no axis", what, printable(*text, 40)),
+               suggest(*text, kAxes));
+  return std::nullopt;
+}
+
+void read_orient(Reader& reader, const yaml::Node& node, Joint& joint) {
+  static const std::vector<std::string> kKeys = {"aim", "toward", "up", "up_toward"};
+  if (!yaml::check_keys(node, kKeys, "orient", reader.diagnostics)) return;
+  Orient orient;
+  orient.span = node.span;
+  if (const yaml::Node* aim = node.find("aim"))
+    if (const auto axis = read_axis(reader, *aim, "aim")) orient.aim = *axis;
+  if (const yaml::Node* up = node.find("up"))
+    if (const auto axis = read_axis(reader, *up, "up")) orient.up = *axis;
+  if (dot(orient.aim, orient.up) != 0)
+    reader.error(codes::kBadAxes, node.span, "`aim` and `up` are the same axis",
+                 "turn another axis up");
+  orient.up_toward = orient.up;
+  if (const yaml::Node* toward = node.find("up_toward")) {
+    const auto direction = reader.vector(*toward, "up_toward");
+    if (direction && length(*direction) < 1e-9)
+      reader.error(codes::kBadAxes, toward->span, "`up_toward` has no length");
+    else if (direction)
+      orient.up_toward = normalised(*direction);
+  }
+  if (const yaml::Node* toward = node.find("toward"))
+    orient.toward = yaml::as_name(*toward, "toward", reader.diagnostics).value_or("");
+  joint.placement.orient = orient;
+}
+
+std::optional<math::Quat> read_quaternion(Reader& reader, const yaml::Node& node) {
+  const auto numbers = yaml::as_numbers(node, 4, "quat", reader.diagnostics);
+  if (!numbers) return std::nullopt;
+  const math::Quat q{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
+  if (!(dot(q, q) > 1e-12) || !(dot(q, q) < 1e12)) {
+    reader.error(codes::kZeroQuaternion, node.span, "the quaternion cannot be brought to length 1",
+                 "[0, 0, 0, 1] is no rotation");
+    return std::nullopt;
+  }
+  return normalised(q);
+}
+
+void read_orientation(Reader& reader, const yaml::Node& node, Joint& joint) {
+  const yaml::Node::Entry* first = nullptr;
+  for (const char* key : {"rotate", "quat", "orient"}) {
+    const yaml::Node::Entry* entry = node.find_entry(key);
+    if (!entry) continue;
+    if (first) {
+      reader.error(codes::kPlacementTwice, entry->key_span,
+                   fmt::format("the joint has both `{}` and `{}`", first->key, entry->key),
+                   "keep one of them");
+      continue;
+    }
+    first = entry;
+    const std::string_view word = key;
+    if (word == "rotate")
+      joint.placement.rotation = reader.euler(entry->value, key).value_or(math::Quat{});
+    else if (word == "quat")
+      joint.placement.rotation = read_quaternion(reader, entry->value).value_or(math::Quat{});
+    else
+      read_orient(reader, entry->value, joint);
+  }
+}
+
+void read_position(Reader& reader, const yaml::Node& node, Joint& joint) {
+  const yaml::Node::Entry* at = node.find_entry("at");
+  const yaml::Node::Entry* translate = node.find_entry("translate");
+  if (at && translate)
+    reader.error(codes::kPlacementTwice, translate->key_span,
+                 "the joint has both `at` and `translate`", "keep one of them");
+  if (at) {
+    joint.placement.space = Placement::Space::model;
+    joint.placement.position = reader.metres(at->value, "at").value_or(math::Vec3{});
+  } else if (translate) {
+    joint.placement.position = reader.metres(translate->value, "translate").value_or(math::Vec3{});
+  }
+}
+
+void read_scale(Reader& reader, const yaml::Node& node, Joint& joint) {
+  const auto scale = reader.vector(node, "scale");
+  if (!scale) return;
+  if (scale->x > 1e-6 && scale->y > 1e-6 && scale->z > 1e-6)
+    joint.placement.scale = *scale;
+  else
+    reader.error(codes::kNotAllowed, node.span, "scale: every number must be above 0",
+                 "mirrored parts are written `mirror: x`");
+}
+
+std::optional<Count> read_count(Reader& reader, const yaml::Node& node) {
+  Count count;
+  count.span = node.span;
+  if (node.is_scalar() && node.text.size() > 1 && node.text[0] == '$') {
+    count.parameter = node.text.substr(1);
+    if (!reader.check_declared(count.parameter, node.span)) return std::nullopt;
+    if (reader.out.find_parameter(count.parameter)->type == catalog::ParameterType::integer)
+      return count;
+    reader.error(codes::kArgumentValue, node.span,
+                 fmt::format("count: ${} is no int", count.parameter));
+    return std::nullopt;
+  }
+  const auto number = yaml::as_integer(node, "count", reader.diagnostics);
+  if (!number) return std::nullopt;
+  if (*number < 1 || *number > kMostInChain) {
+    reader.error(codes::kNotAllowed, node.span,
+                 fmt::format("count: {} is not between 1 and {}", *number, kMostInChain));
+    return std::nullopt;
+  }
+  count.value = static_cast<int>(*number);
+  return count;
+}
+
+void read_chain(Reader& reader, const yaml::Node& node, Joint& joint) {
+  static const std::vector<std::string> kKeys = {"count", "to"};
+  if (!yaml::check_keys(node, kKeys, "chain", reader.diagnostics)) return;
+  Chain chain;
+  chain.span = node.span;
+  if (const yaml::Node* count = reader.required(node, "count", "a chain"))
+    if (const auto number = read_count(reader, *count)) chain.count = *number;
+  if (const yaml::Node* to = reader.required(node, "to", "a chain"))
+    if (const auto position = reader.metres(*to, "to")) chain.to = *position;
+  joint.chain = chain;
+}
+
+}  // namespace
+
+void read_placement(Reader& reader, const yaml::Node& node, Joint& joint) {
+  read_position(reader, node, joint);
+  read_orientation(reader, node, joint);
+  if (const yaml::Node* scale = node.find("scale")) read_scale(reader, *scale, joint);
+  if (const yaml::Node* chain = node.find("chain")) read_chain(reader, *chain, joint);
+}
+
+}  // namespace rigc::templates
