@@ -18,10 +18,10 @@ struct Literal {
   Kind kind = Kind::null;
   bool flag = false;
   double number = 0;
-  std::string text;                                      ///< of a text; of a number: its spelling
-  std::vector<Literal> items;                            ///< of a list
+  std::string text;            ///< of a text; of a number: its spelling
+  std::vector<Literal> items;  ///< of a list
   struct Entry;
-  std::vector<Entry> entries;                            ///< of a map, in written order
+  std::vector<Entry> entries;  ///< of a map, in written order
   Span span;
 
   bool operator==(const Literal& other) const;

@@ -28,6 +28,15 @@ constexpr std::size_t kMostAliased = 200'000;
 constexpr std::size_t kMostAliasedText = 16u << 20;
 constexpr std::size_t kMostDepth = 100;
 
+/// Without leading blanks, line ends and comments.
+std::string_view skip_blanks(std::string_view text) {
+  while (true) {
+    text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+    if (!text.starts_with('#')) return text;
+    text.remove_prefix(std::min(text.find('\n'), text.size()));
+  }
+}
+
 /// Thrown through the parser to leave it, after the error was reported; caught in read().
 struct Stop {};
 
@@ -37,6 +46,7 @@ struct Raw {
   bool quoted = false;
   bool open = false;     ///< still being read: an alias to it would be a cycle
   bool visited = false;  ///< unfolded once already
+  bool broken = false;   ///< stands for a mistake that was reported
   Span span;
   std::string text;
   std::vector<std::uint32_t> children;  ///< items, or keys and values in turn
@@ -75,6 +85,7 @@ class Builder : public YAML::EventHandler {
     const std::uint32_t index = add(NodeKind::scalar, mark, tag, anchor);
     raws_[index].text = value;
     raws_[index].quoted = tag == "!";
+    if (tag == "!") last_quoted_ = mark;
     raws_[index].span.length = length_of(raws_[index], mark);
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -91,6 +102,8 @@ class Builder : public YAML::EventHandler {
     close();
   }
 
+  /// Whether the last quoted text has its closing quote.
+  bool check_end();
   /// The tree; empty if it would be too large or too deep.
   std::optional<Node> unfold();
 
@@ -125,6 +138,7 @@ class Builder : public YAML::EventHandler {
   std::vector<std::uint32_t> stack_;  ///< open containers
   std::unordered_map<YAML::anchor_t, std::uint32_t> anchors_;
   AliasBudget budget_;
+  YAML::Mark last_quoted_ = YAML::Mark::null_mark();
   int documents_ = 0;
 };
 
@@ -170,7 +184,7 @@ void Builder::OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) {
   if (found == anchors_.end() || raws_[found->second].open) {
     diagnostics_.report(codes::kYamlAliasCycle, span_at(mark),
                         "this alias stands inside the value that it names");
-    add(NodeKind::null, mark, "", 0);
+    raws_[add(NodeKind::null, mark, "", 0)].broken = true;
     return;
   }
   attach(found->second);
@@ -208,6 +222,7 @@ void Builder::check_map(std::uint32_t index) {
 void Builder::merge(std::uint32_t source, const Keys& written, Keys& merged,
                     std::vector<std::uint32_t>& children) {
   const Raw& map = raws_[source];
+  if (map.broken) return;
   if (map.kind != NodeKind::map) {
     diagnostics_.report(codes::kYamlBadMerge, map.span, "<< takes a map or a list of maps");
     return;
@@ -227,6 +242,26 @@ void Builder::report_explosion(const Span& span) {
   diagnostics_.report(codes::kYamlAliasExplosion, span,
                       fmt::format("aliases of this expand to more than {} values or {} MB of text",
                                   kMostAliased, kMostAliasedText >> 20));
+}
+
+bool Builder::check_end() {
+  // yaml-cpp takes the end of the file for a closing quote where only blanks come before it.
+  if (last_quoted_.is_null()) return true;
+  std::string_view rest = text_.substr(static_cast<std::size_t>(last_quoted_.pos));
+  while (!rest.empty() && (rest[0] == '&' || rest[0] == '!'))
+    rest = skip_blanks(rest.substr(std::min(rest.find_first_of(" \t\r\n"), rest.size())));
+  if (!rest.starts_with('"') && !rest.starts_with('\'')) return true;
+  const char quote = rest[0];
+  for (std::size_t i = 1; i < rest.size(); ++i) {
+    if (quote == '"' && rest[i] == '\\')
+      ++i;
+    else if (rest[i] == quote && quote == '\'' && rest.substr(i + 1).starts_with('\''))
+      ++i;
+    else if (rest[i] == quote)
+      return true;
+  }
+  diagnostics_.report(codes::kYamlSyntax, span_at(last_quoted_), "this text has no closing quote");
+  return false;
 }
 
 std::optional<Node> Builder::unfold() {
@@ -354,9 +389,13 @@ void report_exception(const YAML::Exception& error, std::uint32_t file, Diagnost
     span.line = static_cast<std::uint32_t>(error.mark.line + 1);
     span.column = static_cast<std::uint32_t>(error.mark.column + 1);
   }
+  const std::string_view line = diagnostics.sources().line(file, span.line);
+  const std::size_t tab = line.find('\t');
+  const bool has_tab = tab != std::string_view::npos && tab < line.find_first_not_of(" \t");
   const bool anchor = error.msg.starts_with(YAML::ErrorMsg::UNKNOWN_ANCHOR);
   diagnostics.report(anchor ? codes::kYamlUnknownAnchor : codes::kYamlSyntax, span,
-                     printable(error.msg), hint_for(error.msg));
+                     printable(error.msg),
+                     has_tab ? "indent with spaces, not tabs" : hint_for(error.msg));
 }
 
 }  // namespace
@@ -393,7 +432,7 @@ std::optional<Node> read(std::uint32_t file, Diagnostics& diagnostics) {
     diagnostics.report(codes::kYamlSyntax, Span{file, 0, 0, 0}, printable(error.what()));
     return std::nullopt;
   }
-  if (diagnostics.errors() != errors) return std::nullopt;
+  if (diagnostics.errors() != errors || !builder.check_end()) return std::nullopt;
   return builder.unfold();
 }
 

@@ -8,12 +8,11 @@
 namespace rigc::catalog::codes {
 
 // Descriptors.
-inline constexpr Code kMissingKey{
-    100, Severity::error, "descriptor lacks a key",
-    "Readers of the catalogue need the key: editors, the reference and the checks are made from it."};
-inline constexpr Code kUnknownWord{
-    101, Severity::error, "unknown word in a descriptor",
-    "The key takes one of a few words. The hint lists them."};
+inline constexpr Code kMissingKey{100, Severity::error, "descriptor lacks a key",
+                                  "Readers of the catalogue need the key: editors, the reference "
+                                  "and the checks are made from it."};
+inline constexpr Code kUnknownWord{101, Severity::error, "unknown word in a descriptor",
+                                   "The key takes one of a few words. The hint lists them."};
 inline constexpr Code kBadVersion{
     102, Severity::error, "bad version of a module",
     "Versions of modules are whole numbers from 1; every change of meaning raises them."};
@@ -26,10 +25,10 @@ inline constexpr Code kDuplicateModule{
 inline constexpr Code kDuplicateParameter{
     105, Severity::error, "parameter is declared twice",
     "A command gives arguments by name, so every parameter has a name of its own."};
-inline constexpr Code kReservedParameter{
-    106, Severity::error, "parameter has a reserved name",
-    "Every command that makes nodes takes `name`, `local` and `label` for what it makes; a descriptor "
-    "cannot declare them again."};
+inline constexpr Code kReservedParameter{106, Severity::error, "parameter has a reserved name",
+                                         "Every command that makes nodes takes `name`, `local` and "
+                                         "`label` for what it makes; a descriptor "
+                                         "cannot declare them again."};
 inline constexpr Code kDuplicateFrame{
     107, Severity::error, "frame is opened twice",
     "A frame is a heading in an editor. Put its parameters together under one."};
@@ -52,12 +51,12 @@ inline constexpr Code kBadDefault{
 inline constexpr Code kDuplicateCreates{
     113, Severity::error, "role is declared twice",
     "Each role that a module makes stands once under `creates`."};
-inline constexpr Code kBadReplaces{
-    114, Severity::error, "replacement names no role of the module",
-    "`replaces` maps roles of an earlier module to roles under `creates`, so that keys move along."};
-inline constexpr Code kBadChange{
-    115, Severity::error, "bad entry under changes",
-    "A change belongs to a version from 2 to the module's own and names a parameter that it has now."};
+inline constexpr Code kBadReplaces{114, Severity::error, "replacement names no role of the module",
+                                   "`replaces` maps roles of an earlier module to roles under "
+                                   "`creates`, so that keys move along."};
+inline constexpr Code kBadChange{115, Severity::error, "bad entry under changes",
+                                 "A change belongs to a version from 2 to the module's own and "
+                                 "names a parameter that it has now."};
 
 // Shapes.
 inline constexpr Code kEmptyShape{
@@ -68,10 +67,10 @@ inline constexpr Code kDuplicateShape{126, Severity::error, "shape exists alread
 inline constexpr Code kBadPoint{
     127, Severity::error, "bad point of a shape",
     "A point is [x, z] in the plane or [x, y, z], with coordinates between -1000 and 1000."};
-inline constexpr Code kBadCircle{
-    128, Severity::error, "bad circle of a shape",
-    "A circle has a radius above 0, 3 to 128 segments, and an arc from `from` to `to` of at most 360 "
-    "degrees."};
+inline constexpr Code kBadCircle{128, Severity::error, "bad circle of a shape",
+                                 "A circle has a radius above 0, 3 to 128 segments, and an arc "
+                                 "from `from` to `to` of at most 360 "
+                                 "degrees."};
 inline constexpr Code kBadRepeat{
     129, Severity::error, "bad repeat of a shape",
     "`repeat` is a whole number from 2 to 64: how often lines are repeated around the Y axis."};

@@ -16,9 +16,8 @@ namespace rigc::catalog {
 namespace {
 
 const std::vector<std::string> kKeys = {
-    "module",     "version",        "title",   "category", "stage",   "summary",
-    "help",       "implementation", "creates", "replaces", "changes", "parameters",
-    "example"};
+    "module",         "version", "title",    "category", "stage",      "summary", "help",
+    "implementation", "creates", "replaces", "changes",  "parameters", "example"};
 
 class DescriptorReader {
  public:
@@ -34,6 +33,7 @@ class DescriptorReader {
   void read_changes();
   void read_change(const yaml::Node& item);
   bool has_role(const std::string& role) const;
+  bool declares(const std::string& parameter);
 
   const yaml::Node& root_;
   Diagnostics& diagnostics_;
@@ -87,6 +87,16 @@ bool DescriptorReader::has_role(const std::string& role) const {
                      [&](const Creates& made) { return made.role == role; });
 }
 
+/// Whether the file declares a parameter, be the declaration good or bad.
+bool DescriptorReader::declares(const std::string& parameter) {
+  const yaml::Node* items = root_.find("parameters");
+  if (!items || !items->is_sequence()) return false;
+  return std::any_of(items->items.begin(), items->items.end(), [&](const yaml::Node& item) {
+    const yaml::Node* name = item.is_map() ? item.find("name") : nullptr;
+    return name && name->text == parameter;
+  });
+}
+
 void DescriptorReader::read_creates() {
   for (const yaml::Node& item : list_of(root_, "creates", diagnostics_)) {
     yaml::check_keys(item, {"role", "kind", "per", "help"}, "creates", diagnostics_);
@@ -108,11 +118,11 @@ void DescriptorReader::read_creates() {
 
 void DescriptorReader::read_replaces() {
   const yaml::Node* replaces = root_.find("replaces");
-  if (!replaces || !yaml::check_map(*replaces, "replaces", diagnostics_)) return;
+  if (!replaces || !expect_map(*replaces, "replaces", diagnostics_)) return;
   for (const yaml::Node::Entry& entry : replaces->entries) {
     auto& [module, roles] = descriptor_.replaces.emplace_back();
     module = entry.key;
-    if (!yaml::check_map(entry.value, "roles", diagnostics_)) continue;
+    if (!expect_map(entry.value, "roles", diagnostics_)) continue;
     for (const yaml::Node::Entry& pair : entry.value.entries) {
       const auto role = yaml::as_name(pair.value, "role", diagnostics_);
       if (!role) continue;
@@ -120,9 +130,10 @@ void DescriptorReader::read_replaces() {
       if (has_role(*role)) continue;
       std::vector<std::string> known;
       for (const Creates& made : descriptor_.creates) known.push_back(made.role);
-      diagnostics_.report(codes::kBadReplaces, pair.value.span,
-                          fmt::format("{} does not make a node in role {}", descriptor_.module, *role),
-                          suggest(*role, known));
+      diagnostics_.report(
+          codes::kBadReplaces, pair.value.span,
+          fmt::format("{} does not make a node in role {}", descriptor_.module, *role),
+          suggest(*role, known));
     }
   }
 }
@@ -154,9 +165,10 @@ void DescriptorReader::read_change(const yaml::Node& item) {
     change.parameter = yaml::as_name(*name, "parameter", diagnostics_).value_or("");
     parameter = descriptor_.find(change.parameter);
   }
-  if (name && !parameter && diagnostics_.ok()) {
+  if (name && !change.parameter.empty() && !declares(change.parameter)) {
     diagnostics_.report(codes::kBadChange, name->span,
-                        fmt::format("there is no parameter {}", change.parameter));
+                        fmt::format("there is no parameter {}", change.parameter),
+                        "give the name that the parameter has now");
   }
   if (const yaml::Node* before = item.find("default_was")) {
     change.default_was = literal_from(*before, diagnostics_);

@@ -69,7 +69,8 @@ struct Descriptor {
   std::string module;
   int version = 1;
   std::string title, category, summary, help;
-  std::string implementation = "builtin";  ///< or the name of another module, whose constructor runs
+  std::string implementation =
+      "builtin";  ///< or the name of another module, whose constructor runs
   Stage stage = Stage::build;
   std::vector<Parameter> parameters;
   std::vector<Creates> creates;

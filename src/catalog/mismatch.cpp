@@ -184,8 +184,9 @@ Result Checker::curve(const Literal& value) const {
       }
     }
     if (before && point.items[0].number <= before->number) {
-      return wrong(point.items[0], fmt::format("position {} is not above the one before, {}",
-                                               found(point.items[0]), found(*before)),
+      return wrong(point.items[0],
+                   fmt::format("position {} is not above the one before, {}", found(point.items[0]),
+                               found(*before)),
                    "the points of a curve go from left to right");
     }
     before = &point.items[0];

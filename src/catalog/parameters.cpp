@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads `parameters:` of a descriptor: frames and parameters in the order in which editors show them.
-// Test: tests/catalog/parameters_test.cpp
+// Reads `parameters:` of a descriptor: frames and parameters in the order in which editors show
+// them. Test: tests/catalog/parameters_test.cpp
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,7 +60,8 @@ class ParameterReader {
   bool flag(std::string_view key);
   void report(const Code& code, const Span& span, std::string_view name, std::string_view message,
               std::string hint = {}) {
-    diagnostics_.report(code, span, fmt::format("parameter {}: {}", name, message), std::move(hint));
+    diagnostics_.report(code, span, fmt::format("parameter {}: {}", name, message),
+                        std::move(hint));
   }
 
   const yaml::Node& node_;
@@ -98,6 +99,7 @@ std::optional<Parameter> ParameterReader::read(const std::string& frame) {
 
 void ParameterReader::read_values(Parameter& parameter) {
   if (parameter.type != ParameterType::enumeration) return;
+  const std::size_t errors = diagnostics_.errors();
   if (!need(node_, "values", "parameter", diagnostics_)) return;
   for (const yaml::Node& value : list_of(node_, "values", diagnostics_)) {
     const auto word = literal_from(value, diagnostics_);
@@ -112,7 +114,7 @@ void ParameterReader::read_values(Parameter& parameter) {
       parameter.values.push_back(word->text);
     }
   }
-  if (parameter.values.size() < 2 && diagnostics_.ok()) {
+  if (parameter.values.size() < 2 && diagnostics_.errors() == errors) {
     report(codes::kBadValues, node_.find("values")->span, parameter.name,
            "an enum needs at least two values");
   }
@@ -156,7 +158,8 @@ void ParameterReader::read_presence(Parameter& parameter) {
   parameter.default_value = literal_from(*default_node, diagnostics_);
   if (!parameter.default_value) return;
   if (const auto wrong = mismatch(parameter, *parameter.default_value)) {
-    diagnostics_.report(codes::kBadDefault, wrong->span, "default of " + wrong->message, wrong->hint);
+    diagnostics_.report(codes::kBadDefault, wrong->span, "default of " + wrong->message,
+                        wrong->hint);
   }
 }
 

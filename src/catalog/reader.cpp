@@ -62,8 +62,15 @@ const std::vector<yaml::Node>& list_of(const yaml::Node& map, std::string_view k
   const yaml::Node* node = map.find(key);
   if (!node) return kNone;
   if (node->is_sequence()) return node->items;
-  diagnostics.report(rigc::codes::kNotASequence, node->span, fmt::format("{}: expected a list", key));
+  diagnostics.report(rigc::codes::kNotASequence, node->span,
+                     fmt::format("{}: expected a list", key));
   return kNone;
+}
+
+bool expect_map(const yaml::Node& node, std::string_view what, Diagnostics& diagnostics) {
+  if (node.is_map()) return true;
+  diagnostics.report(rigc::codes::kNotAMap, node.span, fmt::format("{}: expected a map", what));
+  return false;
 }
 
 }  // namespace rigc::catalog

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pieces of the descriptor reader that its files share. Each reads one part of a YAML tree and reports
-// what is wrong with it. Test: tests/catalog/descriptor_test.cpp
+// Pieces of the descriptor reader that its files share. Each reads one part of a YAML tree and
+// reports what is wrong with it. Test: tests/catalog/descriptor_test.cpp
 #pragma once
 
 #include <initializer_list>
@@ -39,6 +39,9 @@ std::string word_of(const yaml::Node& node, const std::vector<std::string>& word
 /// The list under `key`, which may be missing; anything but a list is reported.
 const std::vector<yaml::Node>& list_of(const yaml::Node& map, std::string_view key,
                                        Diagnostics& diagnostics);
+
+/// Whether a node is a map; anything else is reported.
+bool expect_map(const yaml::Node& node, std::string_view what, Diagnostics& diagnostics);
 
 /// `parameters:` with its frames, checked but for what concerns the whole descriptor.
 void read_parameters(const yaml::Node& map, Descriptor& descriptor, Diagnostics& diagnostics);

@@ -13,11 +13,13 @@ namespace rigc::catalog {
 
 using Point = std::array<double, 3>;
 
-/// Polylines around the origin; flat shapes lie in the XZ plane, front is +Z, about one unit across.
+/// Polylines around the origin; flat shapes lie in the XZ plane, front is +Z, about one unit
+/// across.
 struct Shape {
   std::string name;
   std::string help;
-  std::vector<std::vector<Point>> lines;   ///< each at least two points; closed ones repeat their first
+  std::vector<std::vector<Point>>
+      lines;  ///< each at least two points; closed ones repeat their first
   bool operator==(const Shape&) const = default;
 };
 

@@ -2,6 +2,7 @@
 // The words of descriptors: parameter types, stages, colours, and the parameters that all makers of
 // nodes share. Test: tests/catalog/words_test.cpp
 #include <algorithm>
+#include <span>
 
 #include "catalog/descriptor.h"
 #include "catalog/reader.h"

@@ -70,12 +70,18 @@ class Reader {
   float component(const char* bytes) const {
     const SlimAccessor& accessor = slim_.accessors[static_cast<std::size_t>(index_)];
     switch (accessor.component) {
-      case 5120: return number<std::int8_t>(bytes, accessor.normalised);
-      case 5121: return number<std::uint8_t>(bytes, accessor.normalised);
-      case 5122: return number<std::int16_t>(bytes, accessor.normalised);
-      case 5123: return number<std::uint16_t>(bytes, accessor.normalised);
-      case 5125: return number<std::uint32_t>(bytes, false);
-      default: return number<float>(bytes, false);
+      case 5120:
+        return number<std::int8_t>(bytes, accessor.normalised);
+      case 5121:
+        return number<std::uint8_t>(bytes, accessor.normalised);
+      case 5122:
+        return number<std::int16_t>(bytes, accessor.normalised);
+      case 5123:
+        return number<std::uint16_t>(bytes, accessor.normalised);
+      case 5125:
+        return number<std::uint32_t>(bytes, false);
+      default:
+        return number<float>(bytes, false);
     }
   }
 

@@ -65,10 +65,9 @@ void check_meshes(Check& check) {
 Check::Check(const File& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {
   for (const char* name : kArrays) arrays_[name] = objects(file.root(), name);
   for (const json::Value& value : elements("accessors"))
-    accessors_.push_back({value["count"].integer().value_or(0),
-                          value["componentType"].integer().value_or(0),
-                          value["type"].string().value_or(""),
-                          value["normalized"].boolean().value_or(false)});
+    accessors_.push_back(
+        {value["count"].integer().value_or(0), value["componentType"].integer().value_or(0),
+         value["type"].string().value_or(""), value["normalized"].boolean().value_or(false)});
   for (const json::Value& value : elements("bufferViews"))
     views_.push_back(
         {value["byteLength"].integer().value_or(0), value["byteStride"].integer().value_or(0)});
@@ -161,9 +160,10 @@ std::optional<std::string> Check::word(const json::Value& object, std::string_vi
   const auto text = value.string();
   for (const std::string& candidate : allowed)
     if (text == candidate) return text;
-  report(codes::kValue, value,
-         fmt::format("\"{}\" is {}, which glTF 2.0 does not know", key, printable(value.text(), 40)),
-         suggest(text.value_or(""), allowed));
+  report(
+      codes::kValue, value,
+      fmt::format("\"{}\" is {}, which glTF 2.0 does not know", key, printable(value.text(), 40)),
+      suggest(text.value_or(""), allowed));
   return std::nullopt;
 }
 

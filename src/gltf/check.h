@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Checks of a parsed file: everything that later stages rely on and that the glTF schema or
-// specification promises. One file a theme; check.cpp names them in order. Test: tests/gltf/file_test.cpp
+// specification promises. One file a theme; check.cpp names them in order. Test:
+// tests/gltf/file_test.cpp
 #pragma once
 
 #include <map>
@@ -16,8 +17,8 @@ namespace rigc::gltf {
 /// Reports every error of the JSON (not of the buffers' bytes).
 void check(const File& file, Diagnostics& diagnostics);
 
-/// Properties of an accessor that others depend on; 0 and false where they are wrong. Read once: an object of a
-/// hostile file may have a million members, and a million others may refer to it.
+/// Properties of an accessor that others depend on; 0 and false where they are wrong. Read once: an
+/// object of a hostile file may have a million members, and a million others may refer to it.
 struct AccessorFacts {
   std::int64_t count = 0;
   std::int64_t component = 0;
@@ -29,7 +30,7 @@ struct AccessorFacts {
 /// The same of a buffer view.
 struct ViewFacts {
   std::int64_t length = 0;
-  std::int64_t stride = 0;      ///< 0: not given
+  std::int64_t stride = 0;  ///< 0: not given
 };
 
 /// What the checks share: the top-level arrays and lookups that report what is wrong.
@@ -44,7 +45,8 @@ class Check {
 
   /// An array of objects inside an object; missing is empty.
   std::vector<json::Value> objects(const json::Value& object, std::string_view key);
-  /// A whole number of at least `least`; reported and empty where it is wrong, or missing and required.
+  /// A whole number of at least `least`; reported and empty where it is wrong, or missing and
+  /// required.
   std::optional<std::int64_t> whole(const json::Value& object, std::string_view key,
                                     std::int64_t least, bool required = false);
   /// An index into a top-level array, like whole().

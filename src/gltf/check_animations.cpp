@@ -28,7 +28,8 @@ Sampler check_sampler(Check& check, const json::Value& value) {
   return sampler;
 }
 
-/// Whether the output's type can drive `path`: floats, or normalised integers where glTF allows them.
+/// Whether the output's type can drive `path`: floats, or normalised integers where glTF allows
+/// them.
 bool drives(const AccessorFacts& output, std::string_view path) {
   if (path == "translation" || path == "scale") return output.is_real("VEC3");
   const bool numbers = output.component == 5126 || (output.component != 5125 && output.normalised);
@@ -60,12 +61,12 @@ void check_channel(Check& check, const json::Value& channel, const std::vector<S
   if (!target.is_object())
     return check.report(codes::kMissing, channel, "the channel has no target");
   check.index(target, "node", "nodes");
-  const auto path = check.word(
-      target, "path", {"translation", "rotation", "scale", "weights", "pointer"}, true);
+  const auto path =
+      check.word(target, "path", {"translation", "rotation", "scale", "weights", "pointer"}, true);
   if (sampler && static_cast<std::uint64_t>(*sampler) >= samplers.size())
-    check.report(codes::kIndex, channel["sampler"],
-                 fmt::format("there is no sampler {}: the animation has {}", *sampler,
-                             samplers.size()));
+    check.report(
+        codes::kIndex, channel["sampler"],
+        fmt::format("there is no sampler {}: the animation has {}", *sampler, samplers.size()));
   else if (sampler && path)
     check_output(check, channel, samplers[static_cast<std::size_t>(*sampler)], *path);
 }

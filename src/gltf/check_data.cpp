@@ -10,7 +10,8 @@
 namespace rigc::gltf {
 namespace {
 
-/// Whether `count` elements of `size` bytes, `stride` apart, lie inside `length` bytes from `offset`.
+/// Whether `count` elements of `size` bytes, `stride` apart, lie inside `length` bytes from
+/// `offset`.
 bool fits(std::int64_t offset, std::int64_t count, std::int64_t stride, std::int64_t size,
           std::int64_t length) {
   if (offset > length || length - offset < size) return false;
@@ -79,12 +80,16 @@ std::size_t component_count(std::string_view type) {
 std::size_t component_size(std::int64_t component_type) {
   switch (component_type) {
     case 5120:
-    case 5121: return 1;
+    case 5121:
+      return 1;
     case 5122:
-    case 5123: return 2;
+    case 5123:
+      return 2;
     case 5125:
-    case 5126: return 4;
-    default: return 0;
+    case 5126:
+      return 4;
+    default:
+      return 0;
   }
 }
 

@@ -66,9 +66,9 @@ void check_nodes(Check& check) {
     check.index(nodes[i], "camera", "cameras");
     for (const std::size_t child : check.indices(nodes[i], "children", "nodes")) {
       if (parents[child] >= 0)
-        check.report(codes::kTwoParents, nodes[child],
-                     fmt::format("node {} is a child of node {} and of node {}", child,
-                                 parents[child], i));
+        check.report(
+            codes::kTwoParents, nodes[child],
+            fmt::format("node {} is a child of node {} and of node {}", child, parents[child], i));
       parents[child] = static_cast<int>(i);
     }
   }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "anim/clip.h"
@@ -11,17 +13,25 @@
 
 namespace rigc::gltf {
 
-/// All animations: node channels and KHR_animation_pointer channels at /nodes/N/extras/<attribute>, /nodes/N/translation
-/// and so on; other pointers and morph weights are counted in `other_channels` and left alone.
+/// All animations: node channels and KHR_animation_pointer channels at /nodes/N/extras/<attribute>,
+/// /nodes/N/translation and so on; other pointers and morph weights are counted in `other_channels`
+/// and left alone.
 struct ClipFile {
   std::vector<anim::Clip> clips;
-  std::vector<int> other_channels;     ///< by clip
+  std::vector<int> other_channels;  ///< by clip
 };
 std::optional<ClipFile> read_clips(const File& file, Diagnostics& diagnostics);
 
-/// Changes animation `clip.source_animation` of the file (or appends one where it is -1): channels on nodes of
-/// `replaced` (those paths that the clip brings) and all channels whose index is in `dropped` go, the clip's channels
-/// come, everything else stays with its samplers. Times that several curves share are written once.
-void write_clip(Patch& patch, const File& file, const anim::Clip& clip, const std::vector<int>& dropped_channels);
+/// Changes animation `clip.source_animation` of the file (or appends one where it is -1): channels
+/// with the target of one that the clip brings, and those whose index is in `dropped_channels`, go;
+/// the clip's channels come; everything else stays, with its samplers at their index. Equal times
+/// are written once. An animation that is left without channels becomes a placeholder, because
+/// others may have its index.
+void write_clip(Patch& patch, const File& file, const anim::Clip& clip,
+                const std::vector<int>& dropped_channels);
+
+/// A step of a JSON pointer with `~` and `/` escaped (RFC 6901), and back.
+std::string pointer_escaped(std::string_view step);
+std::string pointer_unescaped(std::string_view step);
 
 }  // namespace rigc::gltf

@@ -15,9 +15,9 @@ namespace rigc::gltf {
 struct Container {
   bool binary = false;
   std::string_view json;
-  std::size_t json_offset = 0;                  ///< of `json` in the file
-  std::string_view bin;                         ///< with its padding; data() is null without a BIN chunk
-  std::vector<std::string_view> other_chunks;   ///< header and bytes
+  std::size_t json_offset = 0;  ///< of `json` in the file
+  std::string_view bin;         ///< with its padding; data() is null without a BIN chunk
+  std::vector<std::string_view> other_chunks;  ///< header and bytes
 };
 
 /// A file that begins with `glTF` is binary, every other one is JSON, whatever it is called.

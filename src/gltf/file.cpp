@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cassert>
+#include <map>
 
 #include "base/text.h"
 #include "gltf/check.h"
@@ -18,60 +19,67 @@ namespace {
 
 constexpr std::uint64_t kLargest = std::uint64_t{8} << 30;
 
-void report(const File& file, const Code& code, const json::Value& at, std::string message,
-            Diagnostics& diagnostics, std::string hint = {}) {
-  diagnostics.report(code, Place(file.path, at.pointer()), std::move(message), std::move(hint));
-}
+/// Loads buffers; a file that several of them name is read once.
+class BufferLoader {
+ public:
+  BufferLoader(File& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
 
-/// The bytes that a buffer's URI names; nothing where that was reported.
-Bytes read_uri(const File& file, const json::Value& at, const std::string& uri,
-               Diagnostics& diagnostics) {
-  if (is_data_uri(uri)) {
-    auto bytes = data_uri_bytes(uri);
-    if (!bytes) {
-      report(file, codes::kBufferUri, at, "the data URI is not valid base64", diagnostics);
-      return nullptr;
+  void load(std::size_t index, const json::Value& value) {
+    index_ = index;
+    Buffer& buffer = file_.buffers[index];
+    const auto length = static_cast<std::uint64_t>(value["byteLength"].integer().value_or(0));
+    if (value["uri"]) {
+      buffer.uri = value["uri"].string().value_or("");
+      buffer.storage = read_uri(buffer.uri);
+      if (!buffer.storage) return;
+      buffer.bytes = *buffer.storage;
+    } else if (index == 0 && file_.bin.data()) {
+      buffer.storage = file_.whole;
+      buffer.bytes = file_.bin;
+    } else {
+      return;
     }
-    return std::make_shared<const std::string>(*std::move(bytes));
+    if (buffer.bytes.size() < length)
+      report(codes::kBufferShort,
+             fmt::format("buffer {} has {} bytes of {}", index, buffer.bytes.size(), length));
+    else
+      buffer.bytes = buffer.bytes.substr(0, length);
   }
-  const auto name = percent_decoded(uri);
-  if (!name || name->empty() || is_absolute_uri(uri)) {
-    report(file, codes::kBufferUri, at,
-           fmt::format("\"{}\" is no path beside the file", printable(uri, 80)), diagnostics);
-    return nullptr;
-  }
-  const auto path = confine(folder_of(file.path), *name);
-  if (!path) {
-    report(file, codes::kBufferEscapes, at,
-           fmt::format("\"{}\" leaves the folder of the file", printable(*name, 80)), diagnostics);
-    return nullptr;
-  }
-  auto bytes = read_file(*path, kLargest, diagnostics);
-  return bytes ? std::make_shared<const std::string>(*std::move(bytes)) : nullptr;
-}
 
-void load_buffer(File& file, std::size_t index, const json::Value& value,
-                 Diagnostics& diagnostics) {
-  Buffer& buffer = file.buffers[index];
-  const auto length = static_cast<std::uint64_t>(value["byteLength"].integer().value_or(0));
-  if (value["uri"]) {
-    buffer.uri = value["uri"].string().value_or("");
-    buffer.storage = read_uri(file, value["uri"], buffer.uri, diagnostics);
-    if (!buffer.storage) return;
-    buffer.bytes = *buffer.storage;
-  } else if (index == 0 && file.bin.data()) {
-    buffer.storage = file.whole;
-    buffer.bytes = file.bin;
-  } else {
-    return;
+ private:
+  Bytes report(const Code& code, std::string message) {
+    diagnostics_.report(code, Place(file_.path, fmt::format("/buffers/{}", index_)),
+                        std::move(message));
+    return nullptr;
   }
-  if (buffer.bytes.size() < length)
-    report(file, codes::kBufferShort, value,
-           fmt::format("buffer {} has {} bytes of {}", index, buffer.bytes.size(), length),
-           diagnostics);
-  else
-    buffer.bytes = buffer.bytes.substr(0, length);
-}
+
+  /// The bytes that a URI names; null where that was reported.
+  Bytes read_uri(const std::string& uri) {
+    if (is_data_uri(uri)) {
+      auto bytes = data_uri_bytes(uri);
+      if (!bytes) return report(codes::kBufferUri, "the data URI is broken");
+      return std::make_shared<const std::string>(*std::move(bytes));
+    }
+    const auto name = percent_decoded(uri);
+    if (!name || name->empty() || is_absolute_uri(uri))
+      return report(codes::kBufferUri,
+                    fmt::format("\"{}\" is no path beside the file", printable(uri, 80)));
+    const auto path = confine(folder_of(file_.path), *name);
+    if (!path)
+      return report(codes::kBufferEscapes,
+                    fmt::format("\"{}\" leaves the folder of the file", printable(*name, 80)));
+    Bytes& known = read_[*path];
+    if (known) return known;
+    if (auto bytes = read_file(*path, kLargest, diagnostics_))
+      known = std::make_shared<const std::string>(*std::move(bytes));
+    return known;
+  }
+
+  File& file_;
+  Diagnostics& diagnostics_;
+  std::size_t index_ = 0;
+  std::map<std::string, Bytes> read_;  ///< by resolved path
+};
 
 }  // namespace
 
@@ -94,7 +102,8 @@ std::optional<File> open(const std::string& path, Diagnostics& diagnostics) {
   if (diagnostics.errors() != errors) return std::nullopt;
   const auto buffers = file.root()["buffers"].items();
   file.buffers.resize(buffers.size());
-  for (std::size_t i = 0; i < buffers.size(); ++i) load_buffer(file, i, buffers[i], diagnostics);
+  BufferLoader loader(file, diagnostics);
+  for (std::size_t i = 0; i < buffers.size(); ++i) loader.load(i, buffers[i]);
   if (diagnostics.errors() != errors) return std::nullopt;
   return file;
 }

@@ -17,24 +17,26 @@ namespace rigc::gltf {
 /// One buffer of the file: bytes of BIN, of another file, or of a data URI.
 struct Buffer {
   Bytes storage;
-  std::string_view bytes;       ///< into storage; byteLength long; empty for a buffer that an extension leaves unfilled
-  std::string uri;              ///< as written; empty for BIN
+  std::string_view bytes;  ///< into storage; byteLength long; empty for a buffer that an extension
+                           ///< leaves unfilled
+  std::string uri;         ///< as written; empty for BIN
 };
 
 struct File {
-  std::string path;             ///< as the user gave it, for messages
-  bool binary = false;          ///< .glb
-  Bytes whole;                  ///< the file's bytes
+  std::string path;     ///< as the user gave it, for messages
+  bool binary = false;  ///< .glb
+  Bytes whole;          ///< the file's bytes
   json::Document json;
-  std::string_view bin;         ///< BIN chunk's bytes (with padding), into whole
-  std::vector<std::string_view> other_chunks;   ///< header and bytes of chunks after BIN, into whole
+  std::string_view bin;                        ///< BIN chunk's bytes (with padding), into whole
+  std::vector<std::string_view> other_chunks;  ///< header and bytes of chunks after BIN, into whole
   std::vector<Buffer> buffers;
 
   json::Value root() const { return json.root(); }
 };
 
-/// Reads and checks container, JSON, `asset.version`, indices, ranges, hierarchy (no cycles, one parent) and
-/// buffers. Everything that later stages rely on is checked here or in their own readers.
+/// Reads and checks container, JSON, `asset.version`, indices, ranges, hierarchy (no cycles, one
+/// parent) and buffers. Everything that later stages rely on is checked here or in their own
+/// readers.
 std::optional<File> open(const std::string& path, Diagnostics& diagnostics);
 
 /// An empty file to write a rig into where there is no model: asset, scene 0.

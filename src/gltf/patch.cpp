@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::string_view kMark = R"("extras":{"rigc":{"free":true}})";
 
-/// An element that nothing uses any more but whose index must stay. `accessor` is any accessor of ours.
+/// An element that nothing uses any more but whose index must stay. `accessor` is any accessor of
+/// ours.
 std::string placeholder(std::string_view array, int accessor) {
   const std::string a = std::to_string(accessor);
   std::string text;
@@ -134,10 +135,8 @@ int Patch::append(NewAccessor accessor) {
   writer.member("bufferView", append_view(accessor.data, accessor.target));
   writer.member("componentType", static_cast<int>(accessor.component));
   writer.member("count", accessor.count).member("type", accessor.type);
-  if (!accessor.min.empty())
-    writer.key("min").numbers(accessor.min.data(), accessor.min.size());
-  if (!accessor.max.empty())
-    writer.key("max").numbers(accessor.max.data(), accessor.max.size());
+  if (!accessor.min.empty()) writer.key("min").numbers(accessor.min.data(), accessor.min.size());
+  if (!accessor.max.empty()) writer.key("max").numbers(accessor.max.data(), accessor.max.size());
   writer.end_object();
   return append("accessors", writer.take());
 }

@@ -14,36 +14,45 @@
 
 namespace rigc::gltf {
 
-enum class ComponentType : int { byte = 5120, unsigned_byte = 5121, unsigned_short = 5123, unsigned_int = 5125, real = 5126 };
+enum class ComponentType : int {
+  byte = 5120,
+  unsigned_byte = 5121,
+  unsigned_short = 5123,
+  unsigned_int = 5125,
+  real = 5126
+};
 
-/// Bytes of a new accessor. `data` is packed little-endian; min and max are written where they are not empty.
+/// Bytes of a new accessor. `data` is packed little-endian; min and max are written where they are
+/// not empty.
 struct NewAccessor {
   std::string data;
   ComponentType component = ComponentType::real;
-  std::string type = "SCALAR";           ///< SCALAR VEC2 VEC3 VEC4 MAT4
+  std::string type = "SCALAR";  ///< SCALAR VEC2 VEC3 VEC4 MAT4
   std::size_t count = 0;
   std::vector<double> min, max;
-  int target = 0;                        ///< 34962 vertices, 34963 indices, 0 none
+  int target = 0;  ///< 34962 vertices, 34963 indices, 0 none
   std::string name;
 };
 
 /// A file that must stand beside the output, written and flushed before it.
 struct ExtraFile {
-  std::string name;    ///< by content: `rigc_0123456789abcdef.bin`
+  std::string name;  ///< by content: `rigc_0123456789abcdef.bin`
   std::string bytes;
 };
 
-/// A finished file, as pieces to write one after another; views stay valid as long as this and the File.
+/// A finished file, as pieces to write one after another; views stay valid as long as this and the
+/// File.
 struct Output {
   Output() = default;
   Output(Output&&) = default;
   Output& operator=(Output&&) = default;
 
   std::vector<std::string_view> pieces;
-  std::vector<std::string> owned;         ///< complete before pieces view into it
+  std::vector<std::string> owned;  ///< complete before pieces view into it
   std::vector<ExtraFile> extra_files;
-  std::vector<std::string> copies;        ///< files beside the input that the output refers to, relative paths
-  bool unchanged = false;                 ///< the pieces are the input, byte for byte
+  std::vector<std::string>
+      copies;              ///< files beside the input that the output refers to, relative paths
+  bool unchanged = false;  ///< the pieces are the input, byte for byte
   std::uint64_t size() const;
 };
 
@@ -51,9 +60,11 @@ class Patch {
  public:
   explicit Patch(const File& file);
 
-  /// Appends to a top-level array ("nodes", "meshes", "materials", "skins", "animations") and gives the index.
+  /// Appends to a top-level array ("nodes", "meshes", "materials", "skins", "animations") and gives
+  /// the index.
   int append(std::string_view array, std::string json);
-  /// Appends an accessor with a buffer view of its own into our bytes at the end of the rig's buffer.
+  /// Appends an accessor with a buffer view of its own into our bytes at the end of the rig's
+  /// buffer.
   int append(NewAccessor accessor);
   /// Appends bytes with a buffer view of their own and gives the view's index.
   int append_view(std::string_view data, int target);
@@ -63,30 +74,35 @@ class Patch {
   /// The text of an element as it is now.
   std::string element(std::string_view array, int index) const;
 
-  /// Replaces a whole element of a top-level array; where `json` is empty by a valid placeholder marked ours.
+  /// Replaces a whole element of a top-level array; where `json` is empty by a valid placeholder
+  /// marked ours.
   void replace(std::string_view array, int index, std::string json);
-  /// Cuts a top-level array to its first `size` elements (our own tail). Bytes of cut buffer views at the end of a
-  /// .glb's BIN and a buffer file that only they used go with them.
+  /// Cuts a top-level array to its first `size` elements (our own tail). Bytes of cut buffer views
+  /// at the end of a .glb's BIN and a buffer file that only they used go with them.
   void truncate(std::string_view array, int size);
-  /// Cuts buffer 0 of a .glb to exactly this length: what buffer_length() was before our first append, where that was
-  /// recorded. Without this, up to 3 bytes of padding before our data stay in its byteLength.
+  /// Cuts buffer 0 of a .glb to exactly this length: what buffer_length() was before our first
+  /// append, where that was recorded. Without this, up to 3 bytes of padding before our data stay
+  /// in its byteLength.
   void truncate_buffer(std::uint64_t byte_length);
   /// byteLength of buffer 0 as the file has it, 0 without one.
   std::uint64_t buffer_length() const;
-  /// Sets one member of an element ("nodes", 3, "extras", ...) keeping the others; json empty removes it.
+  /// Sets one member of an element ("nodes", 3, "extras", ...) keeping the others; json empty
+  /// removes it.
   void set_member(std::string_view array, int index, std::string_view member, std::string json);
-  /// Adds a child to a node, or a root to the default (else the first, else a new) scene where `node` is -1.
+  /// Adds a child to a node, or a root to the default (else the first, else a new) scene where
+  /// `node` is -1.
   void add_child(int node, int child);
   void remove_child(int node, int child);
-  /// Sets member `key` of `extras` of a node, or removes it where `json` is empty, keeping other extras. Extras that
-  /// are no object (glTF allows any value) are the user's and stay as they are.
+  /// Sets member `key` of `extras` of a node, or removes it where `json` is empty, keeping other
+  /// extras. Extras that are no object (glTF allows any value) are the user's and stay as they are.
   void set_extra(int node, std::string_view key, std::string json);
   /// Sets or (empty) removes an extension of the root object and its entry in extensionsUsed.
   void set_root_extension(std::string_view name, std::string json);
   void use_extension(std::string_view name);
   void drop_extension(std::string_view name);
 
-  /// The file's text with all changes, and its buffers. `binary`: as .glb (BIN is extended) or .gltf.
+  /// The file's text with all changes, and its buffers. `binary`: as .glb (BIN is extended) or
+  /// .gltf.
   std::optional<Output> finish(bool binary, Diagnostics& diagnostics);
 
   struct State;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes a Patch: the JSON text with its changes, and the buffer that holds our bytes, as .glb or .gltf.
-// Test: tests/gltf/patch_test.cpp
+// Writes a Patch: the JSON text with its changes, and the buffer that holds our bytes, as .glb or
+// .gltf. Test: tests/gltf/patch_test.cpp
 #include <algorithm>
 #include <cassert>
 
@@ -21,11 +21,11 @@ using State = Patch::State;
 struct Plan {
   enum class Home { none, bin, file, data_uri };
   Home home = Home::none;
-  bool first = false;          ///< the rig's buffer is buffer 0, which begins with `prefix`
+  bool first = false;  ///< the rig's buffer is buffer 0, which begins with `prefix`
   std::string_view prefix;
-  std::uint64_t base = 0;      ///< offset of our data in the rig's buffer
-  std::uint64_t length = 0;    ///< of the rig's buffer
-  bool verbatim = false;       ///< BIN is copied with its padding
+  std::uint64_t base = 0;    ///< offset of our data in the rig's buffer
+  std::uint64_t length = 0;  ///< of the rig's buffer
+  bool verbatim = false;     ///< BIN is copied with its padding
 };
 
 std::uint64_t aligned(std::uint64_t size) { return (size + 3) / 4 * 4; }
@@ -36,9 +36,9 @@ std::uint64_t unsigned_member(const json::Value& object, std::string_view key) {
 
 /// What the views of a file say about one buffer once those at the end are cut.
 struct Use {
-  bool kept = false;                          ///< a view that stays uses it
-  std::uint64_t kept_end = 0;                 ///< end of those
-  std::optional<std::uint64_t> cut_begin;     ///< first byte of those that go
+  bool kept = false;                       ///< a view that stays uses it
+  std::uint64_t kept_end = 0;              ///< end of those
+  std::optional<std::uint64_t> cut_begin;  ///< first byte of those that go
 };
 
 /// `view` is a buffer view, or an extension of one that names a buffer in the same words (meshopt).
@@ -92,8 +92,7 @@ Plan make_plan(State& state, bool binary) {
   const File& file = state.file;
   const ArrayChanges& buffers = state.array("buffers");
   const bool has_first = buffers.size() > 0;
-  const bool in_bin =
-      file.bin.data() && (buffers.original.empty() || !buffers.original[0]["uri"]);
+  const bool in_bin = file.bin.data() && (buffers.original.empty() || !buffers.original[0]["uri"]);
   const bool filled = has_first && !file.buffers.empty() && !file.buffers[0].bytes.empty();
   Plan plan;
   if (binary && (file.binary ? in_bin : filled)) {
@@ -107,9 +106,9 @@ Plan make_plan(State& state, bool binary) {
     plan.home = plan.first ? Plan::Home::bin : binary ? Plan::Home::data_uri : Plan::Home::file;
   } else if (plan.first) {
     plan.prefix = first_bytes(state, buffers.size());
-    plan.verbatim = file.binary && binary && state.data.empty() &&
-                    buffers.kept == buffers.original.size() &&
-                    (buffers.original.empty() || plan.prefix.size() == file.buffers[0].bytes.size());
+    plan.verbatim =
+        file.binary && binary && state.data.empty() && buffers.kept == buffers.original.size() &&
+        (buffers.original.empty() || plan.prefix.size() == file.buffers[0].bytes.size());
   }
   plan.base = aligned(plan.prefix.size());
   plan.length = state.data.empty() ? plan.prefix.size() : plan.base + state.data.size();
@@ -152,7 +151,8 @@ void write_views(State& state, const Plan& plan, int buffer) {
   }
 }
 
-/// Files beside the input that buffers and images name, but for a buffer that became part of the output.
+/// Files beside the input that buffers and images name, but for a buffer that became part of the
+/// output.
 std::vector<std::string> referenced_files(State& state, bool without_first) {
   std::vector<std::string> names;
   for (const char* array : {"buffers", "images"}) {
@@ -189,8 +189,8 @@ void lay_out_glb(Output& output, const State& state, const Plan& plan, std::stri
   std::string bin_head;
   append_uint32(bin_head, bin);
   bin_head += std::string_view("BIN\0", 4);
-  output.owned = {std::move(head), std::move(json), std::move(bin_head),
-                  zeros(plan.prefix.size()), state.data, zeros(plan.length)};
+  output.owned = {std::move(head),           std::move(json), std::move(bin_head),
+                  zeros(plan.prefix.size()), state.data,      zeros(plan.length)};
   output.pieces = {output.owned[0], output.owned[1]};
   if (has_bin && plan.verbatim) {
     output.pieces.insert(output.pieces.end(), {output.owned[2], state.file.bin});

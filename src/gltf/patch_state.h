@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a Patch has gathered: changed, appended and cut elements by top-level array, changed root
-// members, bytes for the buffer. Inside of patch.cpp and patch_finish.cpp. Test: tests/gltf/patch_test.cpp
+// members, bytes for the buffer. Inside of patch.cpp and patch_finish.cpp. Test:
+// tests/gltf/patch_test.cpp
 #pragma once
 
 #include <map>
@@ -21,17 +22,15 @@ struct ArrayChanges {
   std::vector<std::string> appended;
 
   std::size_t size() const { return kept + appended.size(); }
-  bool touched() const {
-    return kept != original.size() || !changed.empty() || !appended.empty();
-  }
+  bool touched() const { return kept != original.size() || !changed.empty() || !appended.empty(); }
   std::string text(std::size_t index) const;
   void set(std::size_t index, std::string json);
 };
 
 /// A buffer view of ours, written when the place of its bytes is known.
 struct PendingView {
-  int index = 0;               ///< in bufferViews
-  std::uint64_t offset = 0;    ///< in State::data
+  int index = 0;             ///< in bufferViews
+  std::uint64_t offset = 0;  ///< in State::data
   std::uint64_t length = 0;
   int target = 0;
 };
@@ -46,8 +45,8 @@ struct Patch::State {
   void set_member(std::string_view name, std::string json);
 
   const File& file;
-  std::vector<std::pair<std::string, ArrayChanges>> arrays;   ///< in the order first touched
-  std::vector<std::pair<std::string, std::string>> members;   ///< of the root; empty text: removed
+  std::vector<std::pair<std::string, ArrayChanges>> arrays;  ///< in the order first touched
+  std::vector<std::pair<std::string, std::string>> members;  ///< of the root; empty text: removed
   std::string data;
   std::vector<PendingView> views;
   std::optional<std::uint64_t> buffer_length;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The one file that knows tinygltf: it reads a slimmed text of what rigc must understand, after our own
-// checks. tinygltf drops what it does not know and crashes on some of it, so nothing else is shown to it.
-// Test: tests/gltf/clips_test.cpp, tests/gltf/skeletons_test.cpp
+// The one file that knows tinygltf: it reads a slimmed text of what rigc must understand, after our
+// own checks. tinygltf drops what it does not know and crashes on some of it, so nothing else is
+// shown to it. Test: tests/gltf/clips_test.cpp, tests/gltf/skeletons_test.cpp
 #include "gltf/slim.h"
 
 #include <tiny_gltf.h>
@@ -179,12 +179,29 @@ SlimAnimation slim_animation(const tinygltf::Animation& from, const json::Value&
   return animation;
 }
 
-Slim convert(const tinygltf::Model& model, const File& file) {
-  Slim slim;
-  for (const tinygltf::Node& node : model.nodes) slim.nodes.push_back(slim_node(node));
+/// Parents, order and world matrices, without recursion: hierarchies may be as deep as the file has
+/// nodes.
+void link(Slim& slim) {
   for (std::size_t i = 0; i < slim.nodes.size(); ++i)
     for (int child : slim.nodes[i].children)
       slim.nodes[static_cast<std::size_t>(child)].parent = static_cast<int>(i);
+  std::vector<int> stack;
+  for (std::size_t i = slim.nodes.size(); i-- > 0;)
+    if (slim.nodes[i].parent < 0) stack.push_back(static_cast<int>(i));
+  while (!stack.empty()) {
+    const int index = stack.back();
+    stack.pop_back();
+    SlimNode& node = slim.nodes[static_cast<std::size_t>(index)];
+    node.world = slim.world(node.parent) * node.matrix;
+    slim.preorder.push_back(index);
+    stack.insert(stack.end(), node.children.rbegin(), node.children.rend());
+  }
+}
+
+Slim convert(const tinygltf::Model& model, const File& file) {
+  Slim slim;
+  for (const tinygltf::Node& node : model.nodes) slim.nodes.push_back(slim_node(node));
+  link(slim);
   for (const tinygltf::Skin& skin : model.skins)
     slim.skins.push_back({skin.name, skin.joints, skin.inverseBindMatrices});
   for (const tinygltf::BufferView& view : model.bufferViews)
@@ -198,13 +215,6 @@ Slim convert(const tinygltf::Model& model, const File& file) {
 }
 
 }  // namespace
-
-math::Affine Slim::world(int node) const {
-  math::Affine matrix;
-  for (int i = node; i >= 0; i = nodes[static_cast<std::size_t>(i)].parent)
-    matrix = nodes[static_cast<std::size_t>(i)].matrix * matrix;
-  return matrix;
-}
 
 std::optional<Slim> read_slim(const File& file, Diagnostics& diagnostics) {
   tinygltf::TinyGLTF reader;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Nodes, skins, animations, accessors and buffer views of a checked file as plain structs: the part of
-// glTF that rigc must understand. Test: tests/gltf/clips_test.cpp, tests/gltf/skeletons_test.cpp
+// Nodes, skins, animations, accessors and buffer views of a checked file as plain structs: the part
+// of glTF that rigc must understand. Test: tests/gltf/clips_test.cpp, tests/gltf/skeletons_test.cpp
 #pragma once
 
 #include <cstdint>
@@ -19,29 +19,30 @@ struct SlimNode {
   int parent = -1;
   std::vector<int> children;
   int mesh = -1, skin = -1, camera = -1;
-  math::Trs local;              ///< a matrix is decomposed
-  math::Affine matrix;          ///< the same, exactly as given
+  math::Trs local;      ///< a matrix is decomposed
+  math::Affine matrix;  ///< the same, exactly as given
+  math::Affine world;   ///< as the file stands
 };
 
 struct SlimSkin {
   std::string name;
   std::vector<int> joints;
-  int matrices = -1;            ///< accessor of inverse bind matrices, -1: none
+  int matrices = -1;  ///< accessor of inverse bind matrices, -1: none
 };
 
 struct SlimView {
   int buffer = -1;
-  std::uint64_t offset = 0, length = 0, stride = 0;   ///< stride 0: packed
+  std::uint64_t offset = 0, length = 0, stride = 0;  ///< stride 0: packed
 };
 
 struct SlimAccessor {
-  int view = -1;                ///< -1: zeros
+  int view = -1;  ///< -1: zeros
   std::uint64_t offset = 0, count = 0;
-  int component = 0;            ///< 5120..5126
-  int width = 0;                ///< numbers in an element
+  int component = 0;  ///< 5120..5126
+  int width = 0;      ///< numbers in an element
   bool normalised = false;
   struct Sparse {
-    std::uint64_t count = 0;    ///< 0: not sparse
+    std::uint64_t count = 0;  ///< 0: not sparse
     int index_view = -1, index_component = 0, value_view = -1;
     std::uint64_t index_offset = 0, value_offset = 0;
   } sparse;
@@ -54,7 +55,7 @@ struct SlimSampler {
 
 /// A channel on a node; channels with a pointer or without a node are not here.
 struct SlimChannel {
-  int index = 0;                ///< in the file's animation
+  int index = 0;  ///< in the file's animation
   int sampler = 0, node = -1;
   std::string path;
 };
@@ -72,8 +73,11 @@ struct Slim {
   std::vector<SlimAccessor> accessors;
   std::vector<SlimAnimation> animations;
 
+  std::vector<int> preorder;  ///< all nodes, parents before children, children in order
+
+  const SlimNode& node(int index) const { return nodes[static_cast<std::size_t>(index)]; }
   /// World matrix of a node as the file stands; identity for -1.
-  math::Affine world(int node) const;
+  math::Affine world(int index) const { return index < 0 ? math::Affine() : node(index).world; }
 };
 
 std::optional<Slim> read_slim(const File& file, Diagnostics& diagnostics);

@@ -53,9 +53,7 @@ Splice::Splice(const json::Value& container) {
   tail_ = all.substr(at, all.size() - 1 - at);
 }
 
-std::string_view Splice::keep(std::string text) {
-  return kept_.emplace_back(std::move(text));
-}
+std::string_view Splice::keep(std::string text) { return kept_.emplace_back(std::move(text)); }
 
 int Splice::find(std::string_view key) const {
   for (std::size_t i = 0; i < keys_.size(); ++i)

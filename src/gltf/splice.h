@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A JSON object or array as the texts of its members: some are changed, the others are copied through
-// with their spelling and white space. Test: tests/gltf/patch_test.cpp
+// A JSON object or array as the texts of its members: some are changed, the others are copied
+// through with their spelling and white space. Test: tests/gltf/patch_test.cpp
 #pragma once
 
 #include <deque>
@@ -35,19 +35,19 @@ class Splice {
 
  private:
   struct Part {
-    std::string_view lead;    ///< white space before the member
-    std::string_view head;    ///< key and colon with the white space between; empty in arrays
+    std::string_view lead;  ///< white space before the member
+    std::string_view head;  ///< key and colon with the white space between; empty in arrays
     std::string_view value;
-    std::string_view trail;   ///< white space before the comma
+    std::string_view trail;  ///< white space before the comma
   };
   void push(std::string_view head, std::string json);
   std::string_view keep(std::string text);
 
   char open_, close_;
   std::vector<Part> parts_;
-  std::vector<std::string> keys_;       ///< of an object, by part
-  std::string_view tail_;               ///< white space before the closing bracket
-  std::deque<std::string> kept_;        ///< texts that parts view; a deque never moves them
+  std::vector<std::string> keys_;  ///< of an object, by part
+  std::string_view tail_;          ///< white space before the closing bracket
+  std::deque<std::string> kept_;   ///< texts that parts view; a deque never moves them
 };
 
 /// `text` (one JSON object) with a member set, or removed where `json` is empty.

@@ -46,25 +46,8 @@ bool contains_parameter(const Literal& value) {
   return false;
 }
 
-bool check_declared(const Literal& value, const Template& owner, Diagnostics& diagnostics) {
-  bool ok = true;
-  const std::string_view name = parameter_name(value);
-  if (!name.empty() && !owner.find_parameter(name)) {
-    std::vector<std::string> declared;
-    for (const Parameter& parameter : owner.parameters) declared.push_back(parameter.name);
-    diagnostics.report(codes::kUnknownParameter, value.span,
-                       fmt::format("the template has no parameter \"{}\"", name),
-                       suggest(name, declared));
-    ok = false;
-  }
-  for (const Literal& item : value.items) ok &= check_declared(item, owner, diagnostics);
-  for (const auto& entry : value.entries) ok &= check_declared(entry.second, owner, diagnostics);
-  return ok;
-}
-
 bool check_selector(const Parameter& parameter, const Literal& value, Diagnostics& diagnostics) {
-  const auto selector =
-      selector::parse(value.text, text_span(value, diagnostics.sources()), diagnostics);
+  const auto selector = selector::parse(value.text, value.span, diagnostics);
   if (!selector) return false;
   const bool plug =
       parameter.type == ParameterType::plug || parameter.type == ParameterType::plugs;
@@ -129,6 +112,22 @@ std::string_view parameter_name(const Literal& value) {
   return is_name(name) ? name : std::string_view();
 }
 
+bool check_declared(const Literal& value, const Template& owner, Diagnostics& diagnostics) {
+  bool ok = true;
+  const std::string_view name = parameter_name(value);
+  if (!name.empty() && !owner.find_parameter(name)) {
+    std::vector<std::string> declared;
+    for (const Parameter& parameter : owner.parameters) declared.push_back(parameter.name);
+    diagnostics.report(codes::kUnknownParameter, value.span,
+                       fmt::format("the template has no parameter \"{}\"", name),
+                       suggest(name, declared));
+    ok = false;
+  }
+  for (const Literal& item : value.items) ok &= check_declared(item, owner, diagnostics);
+  for (const auto& entry : value.entries) ok &= check_declared(entry.second, owner, diagnostics);
+  return ok;
+}
+
 bool substitute(Literal& value, const Environment& environment) {
   bool changed = false;
   if (const std::string_view name = parameter_name(value); !name.empty()) {
@@ -186,9 +185,7 @@ bool check_value(const Parameter& parameter, const Literal& value, Diagnostics& 
     }
     case ParameterType::expression:
       return value.kind != Literal::Kind::text ||
-             selector::parse_expression(value.text, text_span(value, diagnostics.sources()),
-                                        diagnostics)
-                 .has_value();
+             selector::parse_expression(value.text, value.span, diagnostics).has_value();
     default:
       break;
   }
@@ -216,17 +213,6 @@ void to_metres(const Parameter& parameter, double metres_per_unit, Literal& valu
     item.number *= metres_per_unit;
     item.text = number_text(item.number);
   }
-}
-
-Span text_span(const Literal& text, const Sources& sources) {
-  Span span = text.span;
-  const std::string_view line = sources.line(span.file, span.line);
-  if (span.column >= 1 && span.column <= line.size()) {
-    const char first = line[span.column - 1];
-    if ((first == '"' || first == '\'') && (text.text.empty() || text.text[0] != first))
-      ++span.column;
-  }
-  return span;
 }
 
 bool holds(const Condition& condition, const Environment& environment) {

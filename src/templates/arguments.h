@@ -21,6 +21,9 @@ std::string_view parameter_name(const Literal& value);
 /// Replaces every `$name` inside by its value, which keeps the place of the `$name`. True if there was any.
 bool substitute(Literal& value, const Environment& environment);
 
+/// Reports every `$name` inside that the template does not declare.
+bool check_declared(const Literal& value, const Template& owner, Diagnostics& diagnostics);
+
 /// The declaration of an argument: of the descriptor, or `name`, `local`, `label` where it makes nodes.
 const catalog::Parameter* declaration(const catalog::Descriptor& descriptor, std::string_view argument);
 
@@ -34,9 +37,6 @@ bool check_value(const catalog::Parameter& parameter, const Literal& value, Diag
 
 /// Lengths, and vectors in metres, from the file's unit.
 void to_metres(const catalog::Parameter& parameter, double metres_per_unit, Literal& value);
-
-/// Where the text of a scalar begins: behind its opening quote.
-Span text_span(const Literal& text, const Sources& sources);
 
 bool holds(const Condition& condition, const Environment& environment);
 

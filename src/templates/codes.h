@@ -85,8 +85,6 @@ inline constexpr Code kPartCycle{293, Severity::error, "template is part of itse
     "Following the parts of the template leads back to it."};
 inline constexpr Code kTooMuch{294, Severity::error, "template grows too large",
     "Parts may be nested 16 deep, and a skeleton has at most 20,000 joints."};
-inline constexpr Code kPartHasErrors{295, Severity::error, "part has errors",
-    "The part was read before and had errors, which are reported there."};
 inline constexpr Code kUnboundGroup{296, Severity::error, "group that the part needs is not bound",
     "The part lists groups of its surroundings in `needs:`; `groups: {theirs: ours}` says which they are."};
 inline constexpr Code kNotNeeded{297, Severity::error, "part does not need this group",
@@ -143,7 +141,7 @@ inline constexpr const Code* kTemplatesCodes[] = {
     &kUndeclaredSwitch, &kFeatureKind, &kUnknownModule, &kModuleVersion, &kUnknownParameter, &kBadCondition,
     &kBadParameter, &kDuplicatePart, &kEmptyTemplate, &kDuplicateWord, &kUnknownArgument, &kMissingArgument,
     &kArgumentValue, &kPlugNeedsAttribute, &kNodeWithAttribute, &kUnknownTemplate, &kUnknownPart, &kPartOutside,
-    &kPartCycle, &kTooMuch, &kPartHasErrors, &kUnboundGroup, &kNotNeeded, &kUnknownPartParameter, &kJointNameTaken,
+    &kPartCycle, &kTooMuch, &kUnboundGroup, &kNotNeeded, &kUnknownPartParameter, &kJointNameTaken,
     &kUidTwice, &kAmbiguousLabel, &kNoJointsLeft, &kNowhereToAim, &kUpAlongBone, &kUnknownMap, &kNoMapFits,
     &kBadMapEntry, &kMissingBone, &kNotInMap, &kBoneTwice, &kAsymmetric, &kHierarchyDiffers, &kSheared,
     &kNothingToMeasure, &kBadModel};

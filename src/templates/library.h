@@ -19,6 +19,7 @@ namespace rigc::templates {
 /// colons), the data folder's `templates`.
 std::vector<std::string> template_folders(const std::vector<std::string>& given);
 
+/// One library serves one Diagnostics: the spans of what it read point into its sources.
 class Library {
  public:
   Library(std::vector<std::string> folders, const catalog::Catalogue& catalogue)
@@ -36,12 +37,12 @@ class Library {
   const std::vector<std::string>& folders() const { return folders_; }
 
  private:
-  const Template* read_once(const std::string& path, const std::string& reference,
-                            Diagnostics& diagnostics);
+  const Template* read_once(const std::string& path, const std::string& shown_path,
+                            const std::string& reference, Diagnostics& diagnostics);
 
   std::vector<std::string> folders_;
   const catalog::Catalogue& catalogue_;
-  std::map<std::string, std::unique_ptr<Template>> read_;   ///< by path; null: it had errors
+  std::map<std::string, std::unique_ptr<Template>> read_;   ///< by path; null: it had errors, which were reported then
 };
 
 }  // namespace rigc::templates

@@ -92,7 +92,8 @@ void check_word(Reader& reader, const Finder& find, const std::string& word, con
                 const char* key) {
   if (word.empty() || find(word) >= 0) return;
   std::vector<std::string> names;
-  for (const Joint& joint : reader.out.joints) names.push_back(joint.name);
+  if (reader.diagnostics.errors() < 100)  // later ones are not printed, and suggestions cost time
+    for (const Joint& joint : reader.out.joints) names.push_back(joint.name);
   reader.error(codes::kUnknownJoint, span,
                fmt::format("{}: the template has no joint \"{}\"", key, word), suggest(word, names));
 }

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "base/text.h"
+#include "templates/arguments.h"
 #include "templates/codes.h"
 #include "templates/reader.h"
 
@@ -43,7 +44,8 @@ void read_with(Reader& reader, const yaml::Node& node, Part& part) {
   if (!reader.at_most(node, 256, "with")) return;
   for (const yaml::Node::Entry& entry : node.entries) {
     auto value = literal_from(entry.value, reader.diagnostics);
-    if (value) part.with.push_back({entry.key, entry.key_span, std::move(*value)});
+    if (value && check_declared(*value, reader.out, reader.diagnostics))
+      part.with.push_back({entry.key, entry.key_span, std::move(*value)});
   }
 }
 

@@ -104,7 +104,6 @@ void check_declaration(Reader& reader, const yaml::Node& node, tags::FeatureTag&
     reader.error(codes::kFeatureKind, node.find("kind")->span,
                  fmt::format("{} is declared as a feature of kind \"{}\"", tag.name, declared->kind));
   tag.kind = declared->kind;
-  if (!node.find("on")) tag.on = declared->on;
   if (tag.switch_name.empty()) return;
   for (const std::string& name : declared->switches)
     if (name == tag.switch_name) return;
@@ -124,8 +123,10 @@ int read_feature_tag(Reader& reader, const yaml::Node& node, Joint& joint) {
     tag.kind = yaml::as_name(*kind, "kind", reader.diagnostics).value_or("");
   if (const yaml::Node* name = node.find("switch"))
     tag.switch_name = yaml::as_name(*name, "switch", reader.diagnostics).value_or("");
-  if (const yaml::Node* on = node.find("on"))
+  if (const yaml::Node* on = node.find("on")) {
     tag.on = yaml::as_bool(*on, "on", reader.diagnostics).value_or(true);
+    feature.on_written = true;
+  }
   if (const yaml::Node* condition = node.find("if")) feature.condition = reader.condition(*condition);
   if (const yaml::Node* name = node.find("feature"); name && !name->is_null()) {
     tag.span = name->span;

@@ -67,6 +67,7 @@ struct Command {
 
 struct Feature {
   tags::FeatureTag tag;
+  bool on_written = false;         ///< else the catalogue's default counts
   std::optional<Condition> condition;
 };
 

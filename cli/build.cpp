@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// rigc build: template to rig. Test: tests/cli/cli_test.cpp
+#include "pipeline/build.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "base/text.h"
+#include "cli/command.h"
+
+namespace rigc::cli {
+namespace {
+
+std::size_t count_controls(const scene::Scene& scene) {
+  std::size_t controls = 0;
+  for (scene::NodeId id : scene.nodes()) controls += scene[id].kind == scene::Kind::control ? 1 : 0;
+  return controls;
+}
+
+std::string size_text(std::uint64_t bytes) {
+  return bytes < 1024 * 1024 ? fmt::format("{} KB", (bytes + 1023) / 1024)
+                             : fmt::format("{:.1f} MB", static_cast<double>(bytes) / (1024 * 1024));
+}
+
+std::string fit_text(const templates::FitReport& fit) {
+  std::string out = fmt::format("  fitted with map \"{}\": {} joints matched, {:.2f} m tall\n",
+                                fit.map, fit.matched.size(), fit.height_metres);
+  const auto line = [&](const char* what, const std::vector<std::string>& names) {
+    if (!names.empty()) out += fmt::format("  {:<9} {}\n", what, printable(join(names, ", "), 300));
+  };
+  line("left out:", fit.dropped);
+  line("made:", fit.helpers);
+  line("not used:", fit.extra);
+  return out;
+}
+
+std::string summary_json(const pipeline::Built& built, const std::string& out) {
+  json::Writer w(2);
+  w.begin_object().member("file", out).member("bytes", static_cast<std::size_t>(built.bytes));
+  w.member("joints", built.rig.skeleton.joints.size())
+      .member("controls", count_controls(built.rig.scene));
+  w.member("commands", built.rig.commands.size()).member("skipped", built.skipped);
+  w.key("fit")
+      .begin_object()
+      .member("map", built.fit.map)
+      .member("height_metres", built.fit.height_metres);
+  w.key("matched").begin_array();
+  for (const auto& match : built.fit.matched) {
+    w.begin_object()
+        .member("joint", match.joint)
+        .member("bone", match.bone)
+        .member("node", match.node)
+        .end_object();
+  }
+  w.end_array();
+  for (const auto& [name, names] : {std::pair{"dropped", &built.fit.dropped},
+                                    {"helpers", &built.fit.helpers},
+                                    {"extra", &built.fit.extra}}) {
+    w.key(name).begin_array();
+    for (const std::string& value : *names) w.value(value);
+    w.end_array();
+  }
+  w.end_object().end_object();
+  return w.take() + "\n";
+}
+
+class Build final : public Command {
+ public:
+  std::string name() const override { return "build"; }
+  std::string summary() const override { return "Build a rig from a template"; }
+  std::vector<std::string> examples() const override {
+    return {"rigc build templates/biped.yaml -o biped.glb",
+            "rigc build biped.yaml --model hero.glb -o hero_rig.glb",
+            "rigc build biped.yaml -o b.glb --feature arm_l/ikfk=off --group hand_r=off"};
+  }
+  void declare(Options& options) override {
+    options.positional("TEMPLATE", request_.template_file, true,
+                       "Template file, or the name of one that comes with rigc");
+    options.text("-o,--output", "OUT.glb", out_, true, "File to write (.glb or .gltf)");
+    options.text("--model", "FILE", request_.model, false,
+                 "Fit the template to this character and keep its mesh and clips");
+    options.text("--map", "NAME|FILE", request_.map, false,
+                 "Which bone is which joint (default: by detection)");
+    options.text("--skeleton", "NODE", request_.skeleton, false,
+                 "Skeleton of the model, by a node's name or number");
+    options.text("--rest", "REST", request_.rest, false,
+                 "Pose of the model to build in: bind (default), nodes, or CLIP@SECONDS");
+    options.text("--global", "NAME", request_.global, false,
+                 "Global group of the rig (default: the template's)");
+    options.list("--feature", "[GROUP/]NAME[:SWITCH]=on|off", request_.features,
+                 "Turn a feature on or off");
+    options.list("--group", "GROUP=on|off", request_.groups, "Turn a local group on or off");
+    options.list("--only", "GROUP", request_.only, "Run only the commands of this local group");
+    options.text("--until", "JOINT/COMMAND", request_.until, false, "Stop after this command");
+    options.flag("--skeleton-only", request_.skeleton_only,
+                 "Make the skeleton with its tags, run nothing");
+    options.flag("--time", time_, "Say on stderr where the time went");
+    declare_paths(options, request_.paths);
+  }
+  void run(Session& session) override {
+    using Clock = std::chrono::steady_clock;
+    auto last = Clock::now();
+    if (time_) {
+      request_.on_stage = [&](std::string_view stage) {
+        const auto now = Clock::now();
+        session.notes += fmt::format("{:<11}{:8.2f} ms\n", stage,
+                                     std::chrono::duration<double, std::milli>(now - last).count());
+        last = now;
+      };
+    }
+    const auto built = pipeline::build(request_, out_, session.diagnostics);
+    if (!built) return;
+    if (session.json) {
+      session.out = summary_json(*built, out_);
+      return;
+    }
+    session.out = fmt::format("{}: {} joints, {} controls, {} commands{}, {}\n", printable(out_),
+                              built->rig.skeleton.joints.size(), count_controls(built->rig.scene),
+                              built->rig.commands.size(),
+                              built->skipped ? fmt::format(" ({} skipped)", built->skipped) : "",
+                              size_text(built->bytes));
+    if (!request_.model.empty()) session.out += fit_text(built->fit);
+  }
+
+ private:
+  pipeline::BuildRequest request_;
+  std::string out_;
+  bool time_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_build() { return std::make_unique<Build>(); }
+
+}  // namespace rigc::cli

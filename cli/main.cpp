@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// rigc: parses the command line, runs one command, prints what it reports. Exit status: 0 done, 1
+// the work has errors, 2 wrong usage, 3 the file system refused. Test: tests/cli/cli_test.cpp
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+
+#include "cli/command.h"
+
+namespace {
+
+using rigc::cli::Command;
+using rigc::cli::Options;
+using rigc::cli::Session;
+
+constexpr const char* kVersion = "rigc 0.1.0\n";
+
+/// Hands a command's arguments to the parser.
+class ParserOptions final : public Options {
+ public:
+  explicit ParserOptions(CLI::App& app) : app_(app) {}
+
+  void positional(const std::string& name, std::string& target, bool required,
+                  const std::string& help) override {
+    auto* option = app_.add_option(name, target, help)->type_name("");
+    if (required) option->required();
+  }
+  void positionals(const std::string& name, std::vector<std::string>& target,
+                   const std::string& help) override {
+    app_.add_option(name, target, help)->type_name("")->required();
+  }
+  void text(const std::string& name, const std::string& value, std::string& target, bool required,
+            const std::string& help) override {
+    auto* option = app_.add_option(name, target, help)->type_name(value);
+    if (required) option->required();
+  }
+  void list(const std::string& name, const std::string& value, std::vector<std::string>& target,
+            const std::string& help) override {
+    app_.add_option(name, target, help)->type_name(value)->expected(1)->take_all();
+  }
+  void number(const std::string& name, const std::string& value, std::optional<double>& target,
+              const std::string& help) override {
+    app_.add_option(name, target, help)->type_name(value);
+  }
+  void flag(const std::string& name, bool& target, const std::string& help) override {
+    app_.add_flag(name, target, help);
+  }
+
+ private:
+  CLI::App& app_;
+};
+
+bool wants_colour() {
+  const char* no_colour = std::getenv("NO_COLOR");
+  return isatty(STDERR_FILENO) != 0 && !(no_colour && *no_colour);
+}
+
+void print(std::FILE* to, const std::string& text) { std::fwrite(text.data(), 1, text.size(), to); }
+
+int finish(const Session& session) {
+  print(stderr, rigc::render(session.diagnostics, wants_colour()));
+  print(stderr, session.notes);
+  print(stdout, session.out);
+  const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (session.diagnostics.file_system_refused() || !written) return 3;
+  return session.diagnostics.ok() ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"rigc compiles character rigs from YAML templates into glTF files.", "rigc"};
+  app.set_version_flag("--version", kVersion, "Print the version");
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(34);
+  Session session;
+  auto table = rigc::cli::commands();
+  for (auto& command : table) {
+    CLI::App* sub = app.add_subcommand(command->name(), command->summary());
+    ParserOptions options(*sub);
+    command->declare(options);
+    sub->add_flag("--json", session.json, "Print one JSON document on stdout");
+    std::string footer;
+    for (const std::string& example : command->examples()) footer += "  " + example + "\n";
+    if (!footer.empty()) sub->footer("Examples:\n" + footer);
+    if (command->hidden()) sub->group("");
+    Command* runs = command.get();
+    sub->callback([runs, &session] { runs->run(session); });
+  }
+  app.footer(
+      "`rigc COMMAND --help` explains a command. Exit status: 0 done, 1 errors in the work, 2 "
+      "wrong usage, "
+      "3 the file system refused.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  return finish(session);
+}

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// Reads animations: node channels and pointers to node properties.
+// Test: tests/gltf/clips_test.cpp
+#include "gltf/clips.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "base/text.h"
+#include "gltf/accessor.h"
+#include "gltf/codes.h"
+#include "gltf/slim.h"
+
+namespace rigc::gltf {
+namespace {
+
+/// A pointer's target as a channel without a curve; nothing for what rigc does not animate.
+std::optional<anim::Channel> parse_pointer(const std::string& pointer, std::size_t node_count) {
+  const auto steps = split(pointer, '/');
+  if (steps.size() < 4 || !steps[0].empty() || steps[1] != "nodes") return std::nullopt;
+  const auto node = parse_integer(steps[2]);
+  if (!node || *node < 0 || static_cast<std::uint64_t>(*node) >= node_count) return std::nullopt;
+  anim::Channel channel;
+  channel.node = static_cast<int>(*node);
+  if (steps.size() == 5 && steps[3] == "extras") {
+    channel.path = anim::Path::attribute;
+    channel.attribute = pointer_unescaped(steps[4]);
+    return channel;
+  }
+  if (steps.size() != 4) return std::nullopt;
+  if (steps[3] == "translation")
+    channel.path = anim::Path::translation;
+  else if (steps[3] == "rotation")
+    channel.path = anim::Path::rotation;
+  else if (steps[3] == "scale")
+    channel.path = anim::Path::scale;
+  else
+    return std::nullopt;
+  return channel;
+}
+
+int width_of(anim::Path path) {
+  return path == anim::Path::attribute ? 1 : path == anim::Path::rotation ? 4 : 3;
+}
+
+class ClipReader {
+ public:
+  ClipReader(const File& file, const Slim& slim, Diagnostics& diagnostics)
+      : file_(file), slim_(slim), diagnostics_(diagnostics) {
+    // Samplers may share accessors, so that a small file can ask for any amount of memory.
+    budget_ = std::uint64_t{1} << 22;
+    for (const Buffer& buffer : file.buffers) budget_ += 4 * buffer.bytes.size();
+  }
+
+  ClipFile read() {
+    ClipFile result;
+    const auto animations = file_.root()["animations"].items();
+    for (std::size_t i = 0; i < slim_.animations.size(); ++i) {
+      anim::Clip clip;
+      clip.name = slim_.animations[i].name;
+      clip.source_animation = static_cast<int>(i);
+      const auto channels = animations[i]["channels"].items();
+      for (anim::Channel& channel : targets(slim_.animations[i], channels))
+        if (add_curve(slim_.animations[i], channels, channel))
+          clip.channels.push_back(std::move(channel));
+      result.other_channels.push_back(static_cast<int>(channels.size() - clip.channels.size()));
+      result.clips.push_back(std::move(clip));
+    }
+    return result;
+  }
+
+ private:
+  /// What the channels of an animation that rigc understands drive, in the file's order.
+  std::vector<anim::Channel> targets(const SlimAnimation& animation,
+                                     const std::vector<json::Value>& channels) const {
+    std::vector<anim::Channel> result;
+    for (const SlimChannel& from : animation.channels) {
+      anim::Channel channel;
+      channel.node = from.node;
+      channel.source_channel = from.index;
+      if (from.path == "weights") continue;
+      channel.path = from.path == "rotation" ? anim::Path::rotation
+                     : from.path == "scale"  ? anim::Path::scale
+                                             : anim::Path::translation;
+      result.push_back(std::move(channel));
+    }
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      const json::Value target = channels[i]["target"];
+      if (target["path"].string() != "pointer") continue;
+      const json::Value extension = target["extensions"]["KHR_animation_pointer"];
+      auto channel = parse_pointer(extension["pointer"].string().value_or(""), slim_.nodes.size());
+      if (!channel) continue;
+      channel->source_channel = static_cast<int>(i);
+      result.push_back(*std::move(channel));
+    }
+    std::sort(result.begin(), result.end(), [](const anim::Channel& a, const anim::Channel& b) {
+      return a.source_channel < b.source_channel;
+    });
+    return result;
+  }
+
+  bool add_curve(const SlimAnimation& animation, const std::vector<json::Value>& channels,
+                 anim::Channel& channel) {
+    const json::Value value = channels[static_cast<std::size_t>(channel.source_channel)];
+    const auto index = static_cast<std::size_t>(value["sampler"].integer().value_or(0));
+    const SlimSampler& sampler = animation.samplers[index];
+    const auto& output = slim_.accessors[static_cast<std::size_t>(sampler.output)];
+    anim::Curve& curve = channel.curve;
+    curve.interpolation = sampler.interpolation;
+    curve.width = width_of(channel.path);
+    const std::uint64_t keys = slim_.accessors[static_cast<std::size_t>(sampler.input)].count;
+    const std::uint64_t wanted = curve.interpolation == anim::Interpolation::cubic ? 3 : 1;
+    // Only pointers come here unfit: the checks know the types of the other paths.
+    if (output.width != curve.width || output.count / wanted != keys) return false;
+    curve.times = times(sampler.input);
+    if (!curve.times || !spend(output.count * static_cast<std::uint64_t>(output.width), value))
+      return false;
+    auto values = read_floats(file_, slim_, sampler.output, output.count, diagnostics_);
+    if (!values) return false;
+    curve.values = *std::move(values);
+    return true;
+  }
+
+  bool spend(std::uint64_t numbers, const json::Value& channel) {
+    if (numbers <= budget_) {
+      budget_ -= numbers;
+      return true;
+    }
+    if (!overspent_)
+      diagnostics_.report(codes::kNoData, Place(file_.path, channel.pointer()),
+                          "the animations share so much data that they do not fit into memory");
+    overspent_ = true;
+    return false;
+  }
+
+  std::shared_ptr<const std::vector<float>> times(int accessor) {
+    const auto known = times_.find(accessor);
+    if (known != times_.end()) return known->second;
+    auto& shared = times_[accessor];
+    const std::uint64_t count = slim_.accessors[static_cast<std::size_t>(accessor)].count;
+    auto read = read_floats(file_, slim_, accessor, count, diagnostics_);
+    if (!read) return nullptr;
+    for (std::size_t i = 0; i < read->size(); ++i) {
+      if (i == 0 ? (*read)[0] >= 0 : (*read)[i] > (*read)[i - 1]) continue;
+      diagnostics_.report(codes::kTimes, Place(file_.path, fmt::format("/accessors/{}", accessor)),
+                          fmt::format("time {} of accessor {} is {}{}", i, accessor, (*read)[i],
+                                      i == 0 ? "" : fmt::format(" after {}", (*read)[i - 1])));
+      return nullptr;
+    }
+    shared = std::make_shared<const std::vector<float>>(*std::move(read));
+    return shared;
+  }
+
+  const File& file_;
+  const Slim& slim_;
+  Diagnostics& diagnostics_;
+  std::uint64_t budget_;  ///< numbers that may still be read
+  bool overspent_ = false;
+  std::map<int, std::shared_ptr<const std::vector<float>>>
+      times_;  ///< by accessor; empty: reported
+};
+
+}  // namespace
+
+std::string pointer_unescaped(std::string_view step) {
+  std::string out;
+  for (std::size_t i = 0; i < step.size(); ++i) {
+    const bool escape = step[i] == '~' && i + 1 < step.size();
+    out += !escape ? step[i] : step[++i] == '1' ? '/' : '~';
+  }
+  return out;
+}
+
+std::string pointer_escaped(std::string_view step) {
+  std::string out;
+  for (char c : step) {
+    if (c == '~')
+      out += "~0";
+    else if (c == '/')
+      out += "~1";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::optional<ClipFile> read_clips(const File& file, Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.errors();
+  const auto slim = read_slim(file, diagnostics);
+  if (!slim) return std::nullopt;
+  ClipFile result = ClipReader(file, *slim, diagnostics).read();
+  if (diagnostics.errors() != errors) return std::nullopt;
+  return result;
+}
+
+}  // namespace rigc::gltf

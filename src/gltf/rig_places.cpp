@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Places in template files as RIGC_rig keeps them. Test: tests/gltf/rig_json_test.cpp
+#include "gltf/rig_places.h"
+
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "gltf/rig_codes.h"
+
+namespace rigc::gltf {
+namespace {
+
+constexpr std::size_t kMostFiles = 4096;
+constexpr std::int64_t kMostLines = 100'000'000;
+
+}  // namespace
+
+std::string portable_name(std::string_view file, std::string_view main_file) {
+  const std::size_t slash = main_file.rfind('/');
+  const std::string_view folder =
+      slash == std::string_view::npos ? std::string_view() : main_file.substr(0, slash + 1);
+  const auto inside = [](std::string_view name) {
+    return !starts_with(name, "/") && !starts_with(name, "../");
+  };
+  if (starts_with(file, folder) && inside(file.substr(folder.size())))
+    return std::string(file.substr(folder.size()));
+  const std::size_t last = file.rfind('/');
+  return std::string(last == std::string_view::npos ? file : file.substr(last + 1));
+}
+
+int PlaceWriter::number(std::string_view file) {
+  std::string name = portable_name(file, main_file_);
+  const auto [at, is_new] = numbers_.emplace(name, static_cast<int>(files_.size()));
+  if (is_new) files_.push_back(std::move(name));
+  return at->second;
+}
+
+void PlaceWriter::write(json::Writer& writer, const Span& span) {
+  if (!span.known()) return;
+  const double place[] = {static_cast<double>(number(sources_.name(span.file))),
+                          static_cast<double>(span.line), static_cast<double>(span.column)};
+  writer.key("at").numbers(place, 3);
+}
+
+void PlaceWriter::write(json::Writer& writer, const std::string& file, int line) {
+  if (file.empty()) return;
+  const double place[] = {static_cast<double>(number(file)), static_cast<double>(line)};
+  writer.key("at").numbers(place, 2);
+}
+
+PlaceReader::PlaceReader(const json::Value& rig, JsonReader& reader) : reader_(reader) {
+  reader.get(rig, "files", files_);
+  if (files_.size() > kMostFiles) {
+    reader.fail(codes::kRigTooLarge, rig["files"],
+                fmt::format("{} files; at most {} are allowed", files_.size(), kMostFiles));
+    files_.clear();
+  }
+  for (const std::string& file : files_)
+    sources_.push_back(reader.diagnostics().sources().add(file, {}));
+}
+
+bool PlaceReader::numbers(const json::Value& object, std::size_t count, std::int64_t* out) {
+  const json::Value at = object["at"];
+  if (!at) return false;
+  if (!at.is_array() || at.size() != count) {
+    reader_.fail(codes::kRigType, at, fmt::format("{} numbers are needed here", count));
+    return false;
+  }
+  const auto values = at.items();
+  const auto last_file = static_cast<std::int64_t>(files_.size()) - 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!reader_.whole(values[i], 0, i == 0 ? last_file : kMostLines, out[i])) return false;
+  }
+  return true;
+}
+
+Span PlaceReader::read(const json::Value& object) {
+  std::int64_t n[3];
+  if (!numbers(object, 3, n)) return {};
+  return {sources_[static_cast<std::size_t>(n[0])], static_cast<std::uint32_t>(n[1]),
+          static_cast<std::uint32_t>(n[2]), 0};
+}
+
+void PlaceReader::read(const json::Value& object, std::string& file, int& line) {
+  std::int64_t n[2];
+  if (!numbers(object, 2, n)) return;
+  file = files_[static_cast<std::size_t>(n[0])];
+  line = static_cast<int>(n[1]);
+}
+
+}  // namespace rigc::gltf

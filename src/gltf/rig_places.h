@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Places in template files as RIGC_rig keeps them: a list of file names, and [file, line, column].
+// Test: tests/gltf/rig_json_test.cpp
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/json.h"
+#include "base/span.h"
+#include "gltf/rig_json_reader.h"
+
+namespace rigc::gltf {
+
+/// A file's name relative to the folder of the main template; names outside of it lose their folders, because they
+/// would say where on a disk the rig was built.
+std::string portable_name(std::string_view file, std::string_view main_file);
+
+/// Names of files in the order they are first needed.
+class PlaceWriter {
+ public:
+  PlaceWriter(const Sources& sources, std::string main_file)
+      : sources_(sources), main_file_(std::move(main_file)) {}
+  /// `"at": [file, line, column]` where the span is known.
+  void write(json::Writer& writer, const Span& span);
+  /// `"at": [file, line]` where the name is not empty.
+  void write(json::Writer& writer, const std::string& file, int line);
+  const std::vector<std::string>& files() const { return files_; }
+
+ private:
+  int number(std::string_view file);
+  const Sources& sources_;
+  std::string main_file_;
+  std::map<std::string, int, std::less<>> numbers_;
+  std::vector<std::string> files_;
+};
+
+class PlaceReader {
+ public:
+  /// Reads `files` of a rig and adds each to the sources, without text.
+  PlaceReader(const json::Value& rig, JsonReader& reader);
+  Span read(const json::Value& object);
+  void read(const json::Value& object, std::string& file, int& line);
+
+ private:
+  bool numbers(const json::Value& object, std::size_t count, std::int64_t* out);
+  JsonReader& reader_;
+  std::vector<std::string> files_;
+  std::vector<std::uint32_t> sources_;
+};
+
+}  // namespace rigc::gltf

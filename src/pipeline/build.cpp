@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+// Build: template to rig. Test: tests/pipeline/build_test.cpp
+#include "pipeline/build.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/files.h"
+#include "base/text.h"
+#include "gltf/skeletons.h"
+#include "pipeline/codes.h"
+#include "tags/settings.h"
+#include "templates/expand.h"
+#include "templates/library.h"
+
+namespace rigc::pipeline {
+namespace {
+
+/// A feature of this name brings bodies for rigs without a model; with one it is off unless
+/// somebody asks for it.
+constexpr std::string_view kProxyFeature = "proxy";
+
+void told(const BuildRequest& request, std::string_view stage) {
+  if (request.on_stage) request.on_stage(stage);
+}
+
+bool read_settings(const BuildRequest& request, const templates::Expanded& expanded,
+                   tags::Settings& settings, Diagnostics& diagnostics) {
+  const auto& declared = expanded.skeleton.features;
+  const bool has_proxy = std::any_of(declared.begin(), declared.end(), [](const auto& feature) {
+    return feature.name == kProxyFeature;
+  });
+  if (!request.model.empty() && has_proxy) {
+    settings.features.push_back({"", std::string(kProxyFeature), "", false});
+  }
+  bool good = true;
+  for (const std::string& text : request.features) {
+    const auto feature = tags::parse_feature_setting(text, diagnostics);
+    if (feature) settings.features.push_back(*feature);
+    good = good && feature;
+  }
+  for (const std::string& text : request.groups) {
+    const auto group = tags::parse_group_setting(text, diagnostics);
+    if (group) settings.groups.push_back(*group);
+    good = good && group;
+  }
+  settings.rest = request.rest;
+  return good;
+}
+
+std::string skeleton_names(const std::vector<tags::ForeignSkeleton>& skeletons) {
+  std::vector<std::string> names;
+  for (const auto& skeleton : skeletons) {
+    const tags::ForeignJoint& first = skeleton.joints.front();
+    names.push_back(fmt::format("{} (\"{}\", {} joints)", first.node, printable(first.name),
+                                skeleton.joints.size()));
+  }
+  return "--skeleton takes one of: " + join(names, ", ");
+}
+
+/// The skeleton that `--skeleton` names, or the only one.
+const tags::ForeignSkeleton* choose_skeleton(const std::vector<tags::ForeignSkeleton>& skeletons,
+                                             const BuildRequest& request,
+                                             Diagnostics& diagnostics) {
+  if (skeletons.empty()) {
+    diagnostics.report(codes::kNoSkeleton, Place(request.model), "the model has no skeleton");
+    return nullptr;
+  }
+  if (request.skeleton.empty()) {
+    if (skeletons.size() == 1) return &skeletons.front();
+    diagnostics.report(codes::kSeveralSkeletons, Place(request.model),
+                       fmt::format("the model has {} skeletons", skeletons.size()),
+                       skeleton_names(skeletons));
+    return nullptr;
+  }
+  const auto number = parse_integer(request.skeleton);
+  for (const auto& skeleton : skeletons) {
+    for (const tags::ForeignJoint& joint : skeleton.joints) {
+      if (joint.name == request.skeleton || (number && joint.node == *number)) return &skeleton;
+    }
+  }
+  diagnostics.report(codes::kNoSuchSkeleton, Place(request.model),
+                     fmt::format("no skeleton has a node \"{}\"", printable(request.skeleton)),
+                     skeleton_names(skeletons));
+  return nullptr;
+}
+
+bool check_no_rig(const gltf::File& model, const tags::ForeignSkeleton& skeleton,
+                  Diagnostics& diagnostics) {
+  const auto rigs = gltf::read_rigs(model, diagnostics);
+  if (!rigs) return false;
+  std::set<int> taken;
+  for (const gltf::Rig& rig : *rigs) {
+    for (const tags::TaggedJoint& joint : rig.skeleton.joints) taken.insert(joint.foreign_node);
+    taken.insert(rig.nodes.begin(), rig.nodes.end());
+  }
+  for (const tags::ForeignJoint& joint : skeleton.joints) {
+    if (!taken.count(joint.node)) continue;
+    diagnostics.report(codes::kHasRig, Place(model.path, fmt::format("/nodes/{}", joint.node)),
+                       "this skeleton has a rig already",
+                       "`rigc update` moves it to another template version");
+    return false;
+  }
+  return true;
+}
+
+std::optional<tags::TaggedSkeleton> fit_to_model(const BuildRequest& request,
+                                                 const templates::Expanded& expanded,
+                                                 const std::vector<std::string>& folders,
+                                                 Prepared& out, Diagnostics& diagnostics) {
+  out.model = gltf::open(request.model, diagnostics);
+  if (!out.model) return std::nullopt;
+  told(request, "read model");
+  const auto skeletons = gltf::read_skeletons(*out.model, request.rest, diagnostics);
+  if (!skeletons) return std::nullopt;
+  const tags::ForeignSkeleton* skeleton = choose_skeleton(*skeletons, request, diagnostics);
+  if (!skeleton || !check_no_rig(*out.model, *skeleton, diagnostics)) return std::nullopt;
+  out.ancestor = skeleton->ancestor;
+  const auto map = request.map.empty() ? templates::detect_map(*skeleton, folders, diagnostics)
+                                       : templates::find_map(request.map, folders, diagnostics);
+  if (!map) return std::nullopt;
+  return templates::fit(expanded, *skeleton, *map, out.fit, diagnostics);
+}
+
+}  // namespace
+
+std::optional<Prepared> prepare(const BuildRequest& request, Diagnostics& diagnostics) {
+  Prepared out;
+  if (!add_modules(request.paths, out.catalogue, diagnostics)) return std::nullopt;
+  templates::Library library(templates::template_folders(request.paths.templates), out.catalogue);
+  const templates::Template* main = library.open(request.template_file, diagnostics);
+  if (!main) return std::nullopt;
+  told(request, "read");
+  const auto expanded = templates::expand(*main, library, out.catalogue, diagnostics);
+  if (!expanded) return std::nullopt;
+  told(request, "expand");
+  auto skeleton = request.model.empty()
+                      ? templates::place(*expanded, diagnostics)
+                      : fit_to_model(request, *expanded, library.folders(), out, diagnostics);
+  if (!skeleton || !read_settings(request, *expanded, out.settings, diagnostics))
+    return std::nullopt;
+  if (!request.global.empty()) tags::set_global(*skeleton, request.global);
+  if (!tags::apply(*skeleton, out.settings, diagnostics)) return std::nullopt;
+  out.skeleton = std::move(*skeleton);
+  told(request, request.model.empty() ? "place" : "fit");
+
+  auto commands = processor::list(out.skeleton, out.catalogue, diagnostics);
+  if (commands && !request.only.empty()) {
+    commands = processor::only(std::move(*commands), out.skeleton, request.only, diagnostics);
+  }
+  if (!commands) return std::nullopt;
+  out.end = request.skeleton_only ? 0 : commands->commands.size();
+  if (!request.until.empty()) {
+    const auto end = processor::until(*commands, out.skeleton, request.until, diagnostics);
+    if (!end) return std::nullopt;
+    out.end = std::min(out.end, *end);
+  }
+  out.commands = std::move(*commands);
+  told(request, "list");
+  return out;
+}
+
+namespace {
+
+/// What ran, for the file and for people.
+void record_commands(const Prepared& prepared, const processor::Processor& processor,
+                     const Sources& sources, gltf::Rig& rig) {
+  std::map<std::string, int> versions;
+  for (std::size_t i = 0; i < processor.position(); ++i) {
+    const processor::Command& command = prepared.commands.commands[i];
+    const tags::TaggedJoint& joint = prepared.skeleton.joints[command.joint];
+    const tags::CommandTag& tag = tag_of(prepared.skeleton, command);
+    rig.commands.push_back({joint.key, joint.name, tag.id, tag.module, !processor.skipped(i),
+                            std::string(sources.name(tag.span.file)),
+                            static_cast<int>(tag.span.line)});
+    versions[tag.module] = command.descriptor->version;
+  }
+  rig.modules.assign(versions.begin(), versions.end());
+}
+
+std::uint32_t next_rig_id(const std::optional<gltf::File>& model, Diagnostics& diagnostics) {
+  std::uint32_t next = 0;
+  if (!model) return next;
+  const auto rigs = gltf::read_rigs(*model, diagnostics);
+  if (rigs) {
+    for (const gltf::Rig& rig : *rigs) next = std::max(next, rig.id + 1);
+  }
+  return next;
+}
+
+}  // namespace
+
+std::optional<Built> build(const BuildRequest& request, const std::string& out,
+                           Diagnostics& diagnostics) {
+  if (!check_output_name(out, diagnostics)) return std::nullopt;
+  auto prepared = prepare(request, diagnostics);
+  if (!prepared) return std::nullopt;
+
+  processor::Processor processor(prepared->skeleton, prepared->commands, prepared->catalogue);
+  if (!processor.go_to(prepared->end, diagnostics)) return std::nullopt;
+  told(request, "run");
+
+  Built built;
+  built.fit = std::move(prepared->fit);
+  built.rig.id = next_rig_id(prepared->model, diagnostics);
+  built.rig.settings = prepared->settings;
+  record_commands(*prepared, processor, diagnostics.sources(), built.rig);
+  for (std::size_t i = 0; i < processor.position(); ++i)
+    built.skipped += processor.skipped(i) ? 1 : 0;
+  built.rig.scene = processor.take_scene();
+  built.rig.skeleton = std::move(prepared->skeleton);
+  if (!check_evaluates(built.rig.scene, diagnostics)) return std::nullopt;
+  told(request, "compile");
+
+  const gltf::File empty = gltf::empty_file();
+  const gltf::File& file = prepared->model ? *prepared->model : empty;
+  gltf::Patch patch(file);
+  if (!gltf::write_rig(patch, built.rig, prepared->ancestor, diagnostics)) return std::nullopt;
+  if (!write_output(patch, file, out, built.bytes, diagnostics)) return std::nullopt;
+  told(request, "write");
+  return built;
+}
+
+}  // namespace rigc::pipeline

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Build: from a template (and perhaps a model) to a rig. The driver names every stage in order.
+// Test: tests/pipeline/build_test.cpp
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gltf/rig.h"
+#include "pipeline/environment.h"
+#include "processor/processor.h"
+#include "templates/fit.h"
+
+namespace rigc::pipeline {
+
+struct BuildRequest {
+  std::string template_file;  ///< path, or name looked for in the template folders
+  std::string model;          ///< empty: the template's own skeleton
+  std::string map;            ///< name or path; empty: by detection
+  std::string skeleton;       ///< node of the model, by name or number
+  std::string rest = "bind";
+  std::string global;                 ///< empty: the template's
+  std::vector<std::string> features;  ///< [GROUP/]NAME[:SWITCH]=on|off
+  std::vector<std::string> groups;    ///< GROUP=on|off
+  std::vector<std::string> only;      ///< groups whose commands run; empty: all
+  std::string until;                  ///< JOINT/COMMAND
+  bool skeleton_only = false;
+  Paths paths;
+  std::function<void(std::string_view stage)>
+      on_stage;  ///< told when a stage ends, for --time; may be empty
+};
+
+/// Everything up to the commands: what `plan`, `check` and `build` share.
+struct Prepared {
+  catalog::Catalogue catalogue;
+  std::optional<gltf::File> model;
+  int ancestor = -1;  ///< glTF node that the rig goes under
+  tags::TaggedSkeleton skeleton;
+  tags::Settings settings;
+  templates::FitReport fit;
+  processor::CommandList commands;
+  std::size_t end = 0;  ///< how many commands run
+};
+std::optional<Prepared> prepare(const BuildRequest& request, Diagnostics& diagnostics);
+
+struct Built {
+  gltf::Rig rig;
+  templates::FitReport fit;
+  std::size_t skipped = 0;
+  std::uint64_t bytes = 0;
+};
+
+/// Builds and writes `out` (.glb or .gltf). Nothing is written where anything failed.
+std::optional<Built> build(const BuildRequest& request, const std::string& out,
+                           Diagnostics& diagnostics);
+
+/// Whether every transform of a scene can be computed; a cycle is reported.
+bool check_evaluates(const scene::Scene& scene, Diagnostics& diagnostics);
+/// Ends in .glb or .gltf; else reported.
+bool check_output_name(const std::string& out, Diagnostics& diagnostics);
+/// Writes a finished patch: buffers first, then the file.
+bool write_output(gltf::Patch& patch, const gltf::File& file, const std::string& out,
+                  std::uint64_t& bytes, Diagnostics& diagnostics);
+
+}  // namespace rigc::pipeline

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Diagnostic codes 750..799: what only the whole pipeline can see.
+#pragma once
+
+#include "base/diagnostics.h"
+
+namespace rigc::pipeline::codes {
+
+inline constexpr Code kNoSkeleton{750, Severity::error, "model has no skeleton",
+                                  "The model has no skin, so there is nothing to fit the template "
+                                  "to. Without --model the template brings its own skeleton."};
+inline constexpr Code kSeveralSkeletons{
+    751, Severity::error, "model has several skeletons",
+    "Name one with --skeleton: the name or number of a node in it."};
+inline constexpr Code kNoSuchSkeleton{
+    752, Severity::error, "no such skeleton",
+    "--skeleton takes the name or number of a node that belongs to a skeleton of the model."};
+inline constexpr Code kHasRig{753, Severity::error, "skeleton has a rig already",
+                              "The model carries a rig on this skeleton. `rigc update` moves it to "
+                              "another template version and keeps its keys."};
+inline constexpr Code kNoRig{
+    754, Severity::error, "file has no rig",
+    "The file has no RIGC_rig. `rigc build TEMPLATE --model FILE` makes one."};
+inline constexpr Code kNoSuchClip{
+    755, Severity::error, "no such clip",
+    "--clip takes the name or number of a clip in the file; `rigc inspect` lists them."};
+inline constexpr Code kForeignChannels{
+    756, Severity::warning, "clip has channels on driven joints",
+    "The clip animates joints that the rig drives. Where it also animates controls, the controls "
+    "win and bake replaces those channels."};
+inline constexpr Code kBadRange{757, Severity::error, "empty range",
+                                "--start lies after --end, or the frame rate is not above 0."};
+inline constexpr Code kShear{
+    758, Severity::warning, "joints are sheared",
+    "Non-uniform scale above a rotated joint shears it, which translation, rotation and scale "
+    "cannot say. The largest error is given."};
+inline constexpr Code kUnknownFormat{759, Severity::error, "unknown kind of file",
+                                     "rigc writes .glb and .gltf; the name's ending says which."};
+inline constexpr Code kNotOneSelector{760, Severity::error, "query needs one rig",
+                                      "The file has several rigs: begin the selector with a rig's "
+                                      "global group, for example hero:arm_l/control."};
+
+inline constexpr Code kNoSuchModule{761, Severity::error, "no such module",
+                                    "`rigc modules` lists the modules that this run of rigc knows; "
+                                    "--modules and RIGC_MODULES add more."};
+
+inline constexpr const Code* kPipelineCodes[] = {
+    &kNoSkeleton, &kSeveralSkeletons, &kNoSuchSkeleton,  &kHasRig,
+    &kNoRig,      &kNoSuchClip,       &kForeignChannels, &kBadRange,
+    &kShear,      &kUnknownFormat,    &kNotOneSelector,  &kNoSuchModule};
+
+}  // namespace rigc::pipeline::codes

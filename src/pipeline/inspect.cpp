@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// Inspect: what is in a rig file. Test: tests/pipeline/inspect_test.cpp
+#include "pipeline/inspect.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/text.h"
+#include "gltf/clips.h"
+#include "gltf/rig.h"
+#include "pipeline/codes.h"
+
+namespace rigc::pipeline {
+namespace {
+
+using gltf::Rig;
+using scene::NodeId;
+
+std::vector<std::string> groups_of(const Rig& rig) {
+  std::vector<std::string> groups;
+  for (const tags::TaggedJoint& joint : rig.skeleton.joints) {
+    const std::string& local = joint.ids.local;
+    if (!local.empty() && std::find(groups.begin(), groups.end(), local) == groups.end())
+      groups.push_back(local);
+  }
+  return groups;
+}
+
+void write_features(json::Writer& w, const Rig& rig) {
+  w.key("features").begin_array();
+  for (const tags::FeatureDeclaration& feature : rig.skeleton.features) {
+    w.begin_object()
+        .member("name", feature.name)
+        .member("kind", feature.kind)
+        .member("title", feature.title);
+    w.member("on", feature.on).key("switches").begin_array();
+    for (const std::string& name : feature.switches) w.value(name);
+    w.end_array().end_object();
+  }
+  w.end_array();
+}
+
+void write_joints(json::Writer& w, const Rig& rig) {
+  w.key("joints").begin_array();
+  for (NodeId id : rig.scene.nodes()) {
+    const scene::Node& node = rig.scene[id];
+    if (!node.is_skeleton()) continue;
+    w.begin_object()
+        .member("uid", to_text(node.identity.owner))
+        .member("node", rig.nodes[id.index]);
+    w.member("name", node.name)
+        .member("local", node.ids.local)
+        .member("label", node.ids.label)
+        .end_object();
+  }
+  w.end_array();
+}
+
+/// What animators can key on a control, with its values now.
+void write_attributes(json::Writer& w, const scene::Scene& scene, NodeId id) {
+  namespace transform = scene::transform;
+  const math::Trs local = scene.local(id);
+  const int keyable = static_cast<int>(scene.number({id, scene::control::kKeyable}));
+  w.key("attributes").begin_object();
+  if (keyable & 1) w.key("translate").numbers(&local.translation.x, 3);
+  if (keyable & 2) w.key("rotation").numbers(&local.rotation.x, 4);
+  if (keyable & 4) w.key("scale").numbers(&local.scale.x, 3);
+  for (const scene::UserAttribute& attribute : scene[id].user)
+    w.member(attribute.name, attribute.value);
+  w.end_object();
+}
+
+void write_controls(json::Writer& w, const Rig& rig) {
+  w.key("controls").begin_array();
+  for (NodeId id : rig.scene.nodes()) {
+    const scene::Node& node = rig.scene[id];
+    if (node.kind != scene::Kind::control) continue;
+    const auto opposite = std::get<std::string>(rig.scene.value({id, scene::control::kOpposite}));
+    w.begin_object().member("node", rig.nodes[id.index]).member("identity", to_text(node.identity));
+    w.member("name", node.name).member("local", node.ids.local).member("label", node.ids.label);
+    w.member("module", node.module)
+        .member("id", node.identity.command)
+        .member("role", node.identity.role);
+    w.member("opposite", opposite);
+    write_attributes(w, rig.scene, id);
+    w.end_object();
+  }
+  w.end_array();
+}
+
+void write_commands(json::Writer& w, const Rig& rig) {
+  w.key("commands").begin_array();
+  for (const gltf::CommandRecord& command : rig.commands) {
+    w.begin_object().member("joint", command.joint).member("uid", to_text(command.holder));
+    w.member("id", command.id).member("module", command.module).member("skipped", !command.ran);
+    w.member("file", command.file).member("line", command.line).end_object();
+  }
+  w.end_array();
+}
+
+void write_rig(json::Writer& w, const Rig& rig) {
+  w.begin_object().member("id", rig.id).member("global", rig.skeleton.global);
+  const bool known = !rig.skeleton.templates.empty();
+  w.key("template")
+      .begin_object()
+      .member("name", known ? rig.skeleton.templates.front().name : rig.skeleton.name);
+  w.member("version", known ? rig.skeleton.templates.front().version : 0).end_object();
+  w.key("groups").begin_array();
+  for (const std::string& group : groups_of(rig)) w.value(group);
+  w.end_array();
+  write_features(w, rig);
+  write_joints(w, rig);
+  write_controls(w, rig);
+  write_commands(w, rig);
+  w.key("orphans").begin_array().end_array();
+  w.end_object();
+}
+
+std::string as_json(const std::vector<Rig>& rigs, const gltf::ClipFile& clips) {
+  json::Writer w(2);
+  w.begin_object().key("rigs").begin_array();
+  for (const Rig& rig : rigs) write_rig(w, rig);
+  w.end_array().key("clips").begin_array();
+  for (std::size_t i = 0; i < clips.clips.size(); ++i) {
+    const anim::Clip& clip = clips.clips[i];
+    w.begin_object().member("name", clip.name);
+    w.member("duration", clip.channels.empty() ? 0.0 : anim::last_time(clip));
+    w.member("channels", clip.channels.size() + static_cast<std::size_t>(clips.other_channels[i]))
+        .end_object();
+  }
+  w.end_array().end_object();
+  return w.take() + "\n";
+}
+
+std::size_t count(const Rig& rig, scene::Kind kind) {
+  std::size_t n = 0;
+  for (NodeId id : rig.scene.nodes()) n += rig.scene[id].kind == kind ? 1 : 0;
+  return n;
+}
+
+std::string as_text(const std::vector<Rig>& rigs, const gltf::ClipFile& clips) {
+  std::string out;
+  for (const Rig& rig : rigs) {
+    out += fmt::format("rig {} \"{}\"\n", rig.id, printable(rig.skeleton.global));
+    for (const tags::TemplateReference& reference : rig.skeleton.templates) {
+      out += fmt::format("  template  {} version {} ({})\n", printable(reference.name),
+                         reference.version, printable(reference.file));
+    }
+    out +=
+        fmt::format("  {} joints, {} controls, {} nodes, {} commands\n", rig.skeleton.joints.size(),
+                    count(rig, scene::Kind::control), rig.scene.size(), rig.commands.size());
+    out += fmt::format("  groups    {}\n", join(groups_of(rig), " "));
+    for (const tags::FeatureDeclaration& feature : rig.skeleton.features) {
+      out += fmt::format("  feature   {} ({}) {}\n", feature.name, feature.kind,
+                         feature.on ? "on" : "off");
+    }
+  }
+  if (rigs.empty()) out += "no rig\n";
+  for (std::size_t i = 0; i < clips.clips.size(); ++i) {
+    const anim::Clip& clip = clips.clips[i];
+    out += fmt::format("clip \"{}\"  {:.3f} s, {} channels\n", printable(clip.name),
+                       clip.channels.empty() ? 0.0 : anim::last_time(clip),
+                       clip.channels.size() + static_cast<std::size_t>(clips.other_channels[i]));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<std::string> inspect(const std::string& path, bool json, Diagnostics& diagnostics) {
+  const auto file = gltf::open(path, diagnostics);
+  if (!file) return std::nullopt;
+  const auto rigs = gltf::read_rigs(*file, diagnostics);
+  const auto clips = gltf::read_clips(*file, diagnostics);
+  if (!rigs || !clips) return std::nullopt;
+  return json ? as_json(*rigs, *clips) : as_text(*rigs, *clips);
+}
+
+}  // namespace rigc::pipeline

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+// The reference of modules, for the terminal, for docs/modules.md and as JSON Schema.
+// Test: tests/pipeline/reference_test.cpp
+#include "pipeline/reference.h"
+
+#include <fmt/format.h>
+
+#include "base/files.h"
+#include "base/text.h"
+#include "catalog/catalogue.h"
+#include "pipeline/codes.h"
+
+namespace rigc::pipeline {
+namespace {
+
+using catalog::Catalogue;
+using catalog::Descriptor;
+using catalog::Parameter;
+using catalog::ParameterType;
+
+std::string literal_text(const Literal& literal) {
+  if (literal.kind == Literal::Kind::text) return literal.text;
+  if (literal.kind == Literal::Kind::boolean) return literal.flag ? "on" : "off";
+  json::Writer w;
+  write(w, literal);
+  return w.take();
+}
+
+/// `enum: auto, forward, ...`, `float 0..1`, `node (joint)`.
+std::string type_text(const Parameter& parameter) {
+  std::string text(catalog::name_of(parameter.type));
+  if (!parameter.values.empty()) text += ": " + join(parameter.values, ", ");
+  if (!parameter.kind.empty()) text += " (" + parameter.kind + ")";
+  if (parameter.min || parameter.max) {
+    text += fmt::format(" {}..{}", parameter.min ? number_text(*parameter.min) : "",
+                        parameter.max ? number_text(*parameter.max) : "");
+  }
+  if (!parameter.unit.empty()) text += ", " + parameter.unit;
+  return text;
+}
+
+std::string default_text(const Parameter& parameter) {
+  if (parameter.required) return "required";
+  return parameter.default_value ? literal_text(*parameter.default_value) : "";
+}
+
+std::string explain(const Descriptor& d) {
+  std::string out = fmt::format("{} (version {}, {}, stage {})\n{}\n", d.module, d.version,
+                                d.category, catalog::name_of(d.stage), d.summary);
+  if (!d.help.empty()) out += "\n" + d.help + (ends_with(d.help, "\n") ? "" : "\n");
+  std::string frame;
+  for (const Parameter& parameter : d.parameters) {
+    if (parameter.frame != frame) out += fmt::format("\n{}\n", frame = parameter.frame);
+    const std::string value = default_text(parameter);
+    out += fmt::format("  {}  ({}{}{})\n      {}\n", parameter.name, type_text(parameter),
+                       value.empty() ? "" : "; ",
+                       parameter.required || value.empty() ? value : "default " + value,
+                       parameter.help);
+  }
+  if (d.makes_nodes()) out += "\nMakes (and takes name, local, label for what it makes)\n";
+  for (const catalog::Creates& made : d.creates) {
+    out += fmt::format("  {}  ({}, per {})\n      {}\n", made.role, made.kind, made.per, made.help);
+  }
+  if (!d.example.empty()) out += "\nExample\n\n" + d.example;
+  return out;
+}
+
+void write_descriptor(json::Writer& w, const Descriptor& d) {
+  w.begin_object().member("module", d.module).member("version", d.version).member("title", d.title);
+  w.member("category", d.category)
+      .member("stage", catalog::name_of(d.stage))
+      .member("summary", d.summary);
+  w.member("help", d.help).key("parameters").begin_array();
+  for (const Parameter& parameter : d.parameters) {
+    w.begin_object()
+        .member("name", parameter.name)
+        .member("type", catalog::name_of(parameter.type));
+    w.member("frame", parameter.frame)
+        .member("help", parameter.help)
+        .member("required", parameter.required);
+    if (!parameter.kind.empty()) w.member("kind", parameter.kind);
+    if (!parameter.unit.empty()) w.member("unit", parameter.unit);
+    if (parameter.min) w.member("min", *parameter.min);
+    if (parameter.max) w.member("max", *parameter.max);
+    if (!parameter.values.empty()) {
+      w.key("values").begin_array();
+      for (const std::string& value : parameter.values) w.value(value);
+      w.end_array();
+    }
+    if (parameter.default_value) {
+      w.key("default");
+      write(w, *parameter.default_value);
+    }
+    w.end_object();
+  }
+  w.end_array().key("creates").begin_array();
+  for (const catalog::Creates& made : d.creates) {
+    w.begin_object().member("role", made.role).member("kind", made.kind).member("per", made.per);
+    w.member("help", made.help).end_object();
+  }
+  w.end_array().member("example", d.example).end_object();
+}
+
+const Descriptor* find_module(const std::string& name, const Catalogue& catalogue,
+                              Diagnostics& diagnostics) {
+  const Descriptor* found = catalogue.find(name);
+  if (!found) {
+    diagnostics.report(codes::kNoSuchModule, Place(),
+                       fmt::format("there is no module \"{}\"", printable(name)),
+                       suggest(name, catalogue.modules()));
+  }
+  return found;
+}
+
+void write_type(json::Writer& w, const Parameter& parameter) {
+  const auto array_of = [&](const char* type, std::size_t count) {
+    w.member("type", "array").key("items").begin_object().member("type", type).end_object();
+    if (count > 0) w.member("minItems", count).member("maxItems", count);
+  };
+  switch (parameter.type) {
+    case ParameterType::number:
+    case ParameterType::angle:
+    case ParameterType::length:
+      w.member("type", "number");
+      break;
+    case ParameterType::integer:
+      w.member("type", "integer");
+      break;
+    case ParameterType::boolean:
+      w.member("type", "boolean");
+      break;
+    case ParameterType::numbers:
+      array_of("number", 0);
+      break;
+    case ParameterType::vec3:
+      array_of("number", 3);
+      break;
+    case ParameterType::curve:
+      array_of("array", 0);
+      break;
+    case ParameterType::nodes:
+    case ParameterType::plugs:
+      w.key("type").begin_array().value("string").value("array").end_array();
+      break;
+    case ParameterType::color:
+      w.key("type").begin_array().value("string").value("array").end_array();
+      break;
+    case ParameterType::expression:
+      w.key("type").begin_array().value("string").value("number").end_array();
+      break;
+    case ParameterType::value:
+      break;
+    default:
+      w.member("type", "string");
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> modules(const std::string& name, const Paths& paths, bool as_json,
+                                   Diagnostics& diagnostics) {
+  Catalogue catalogue;
+  if (!add_modules(paths, catalogue, diagnostics)) return std::nullopt;
+  if (!name.empty()) {
+    const Descriptor* found = find_module(name, catalogue, diagnostics);
+    if (!found) return std::nullopt;
+    if (!as_json) return explain(*found);
+    json::Writer w(2);
+    write_descriptor(w, *found);
+    return w.take() + "\n";
+  }
+  json::Writer w(2);
+  std::string text;
+  w.begin_array();
+  for (const std::string& module : catalogue.modules()) {
+    const Descriptor* found = catalogue.find(module);
+    write_descriptor(w, *found);
+    text += fmt::format("{:<18} {:<12} {}\n", module, found->category, found->summary);
+  }
+  w.end_array();
+  return as_json ? w.take() + "\n" : text + "`rigc modules NAME` explains one, with an example.\n";
+}
+
+std::optional<std::string> schema(const std::string& name, const Paths& paths,
+                                  Diagnostics& diagnostics) {
+  if (name == "RIGC_rig") {
+    for (const char* place : {"schema/RIGC_rig.schema.json", "docs/schema/RIGC_rig.schema.json"}) {
+      const std::string path = join_path(data_folder(), place);
+      if (file_exists(path)) return read_file(path, 1 << 20, diagnostics);
+    }
+  }
+  Catalogue catalogue;
+  if (!add_modules(paths, catalogue, diagnostics)) return std::nullopt;
+  const Descriptor* found = find_module(name, catalogue, diagnostics);
+  if (!found) return std::nullopt;
+  json::Writer w(2);
+  w.begin_object()
+      .member("$schema", "https://json-schema.org/draft/2020-12/schema")
+      .member("title", found->title);
+  w.member("description", found->summary)
+      .member("type", "object")
+      .member("additionalProperties", false);
+  w.key("properties").begin_object();
+  for (const char* creation : {"name", "local", "label"}) {
+    if (found->makes_nodes()) w.key(creation).begin_object().member("type", "string").end_object();
+  }
+  for (const Parameter& parameter : found->parameters) {
+    w.key(parameter.name).begin_object().member("description", parameter.help);
+    write_type(w, parameter);
+    if (parameter.min) w.member("minimum", *parameter.min);
+    if (parameter.max) w.member("maximum", *parameter.max);
+    if (!parameter.values.empty()) {
+      w.key("enum").begin_array();
+      for (const std::string& value : parameter.values) w.value(value);
+      w.end_array();
+    }
+    w.end_object();
+  }
+  w.end_object().key("required").begin_array();
+  for (const Parameter& parameter : found->parameters) {
+    if (parameter.required) w.value(parameter.name);
+  }
+  w.end_array().end_object();
+  return w.take() + "\n";
+}
+
+std::string module_reference() {
+  const Catalogue catalogue;
+  std::string out =
+      "# Modules\n\nMade from the descriptors in `modules.d/` by `rigc docs`. Every command that "
+      "makes nodes also takes "
+      "`name`, `local` and `label` for what it makes (default: its joint's).\n";
+  for (const std::string& name : catalogue.modules()) {
+    const Descriptor* d = catalogue.find(name);
+    out += fmt::format("\n## {}\n\n{} Version {}, stage `{}`, category {}.\n", name, d->summary,
+                       d->version, catalog::name_of(d->stage), d->category);
+    if (!d->help.empty()) out += fmt::format("\n{}\n", trim(d->help));
+    if (!d->parameters.empty())
+      out += "\n| parameter | type | default | what it does |\n| --- | --- | --- | --- |\n";
+    for (const Parameter& parameter : d->parameters) {
+      out += fmt::format("| `{}` | {} | {} | {} |\n", parameter.name, type_text(parameter),
+                         default_text(parameter), parameter.help);
+    }
+    if (d->makes_nodes()) out += "\n| makes | kind | per | |\n| --- | --- | --- | --- |\n";
+    for (const catalog::Creates& made : d->creates) {
+      out += fmt::format("| `{}` | {} | {} | {} |\n", made.role, made.kind, made.per, made.help);
+    }
+    if (!d->example.empty()) out += fmt::format("\n```yaml\n{}```\n", d->example);
+  }
+  return out;
+}
+
+}  // namespace rigc::pipeline

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// Settings: parsing the command line's texts, and laying them over tags. Test: tests/tags/settings_test.cpp
+#include "tags/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/text.h"
+#include "tags/codes.h"
+
+namespace rigc::tags {
+namespace {
+
+/// Splits `NAME=on` into its name and its value.
+std::optional<std::pair<std::string_view, bool>> split_setting(std::string_view text) {
+  const std::size_t equals = text.rfind('=');
+  if (equals == std::string_view::npos) return std::nullopt;
+  const std::string_view value = text.substr(equals + 1);
+  if (value != "on" && value != "off" && value != "true" && value != "false") return std::nullopt;
+  return std::pair(text.substr(0, equals), value == "on" || value == "true");
+}
+
+std::vector<std::string> sorted(const std::set<std::string>& names) {
+  return {names.begin(), names.end()};
+}
+
+/// Checks the names of one feature setting against all tags of the skeleton.
+void check_feature(const TaggedSkeleton& skeleton, const Settings::Feature& setting,
+                   Diagnostics& diagnostics) {
+  std::set<std::string> groups, names, switches;
+  for (const TaggedJoint& joint : skeleton.joints) {
+    groups.insert(joint.ids.local);
+    if (!setting.group.empty() && joint.ids.local != setting.group) continue;
+    for (const FeatureTag& feature : joint.features) {
+      if (!feature.name.empty()) names.insert(feature.name);
+      if (feature.name == setting.name && !feature.switch_name.empty())
+        switches.insert(feature.switch_name);
+    }
+  }
+  groups.erase("");
+  if (setting.group.empty()) {
+    // Declared features may have lost all their tags, for instance with an optional joint.
+    for (const FeatureDeclaration& feature : skeleton.features) {
+      names.insert(feature.name);
+      if (feature.name == setting.name)
+        switches.insert(feature.switches.begin(), feature.switches.end());
+    }
+  }
+  const std::string in = setting.group.empty() ? "" : fmt::format(" in the group {}", setting.group);
+  if (!setting.group.empty() && !groups.contains(setting.group))
+    diagnostics.report(codes::kUnknownGroup, Place(),
+                       fmt::format("there is no group \"{}\"", printable(setting.group, 60)),
+                       suggest(setting.group, sorted(groups)));
+  else if (!names.contains(setting.name))
+    diagnostics.report(codes::kUnknownFeature, Place(),
+                       fmt::format("there is no feature \"{}\"{}", printable(setting.name, 60), in),
+                       suggest(setting.name, sorted(names)));
+  else if (!setting.switch_name.empty() && !switches.contains(setting.switch_name))
+    diagnostics.report(codes::kUnknownSwitch, Place(),
+                       fmt::format("the feature {} has no switch \"{}\"{}", setting.name,
+                                   printable(setting.switch_name, 60), in),
+                       suggest(setting.switch_name, sorted(switches)));
+}
+
+/// The last setting that names what a tag says; one for its group counts before one for all.
+std::optional<bool> find_setting(const std::vector<Settings::Feature>& settings,
+                                 const std::string& group, const FeatureTag& feature,
+                                 const std::string& switch_name) {
+  std::optional<bool> everywhere, here;
+  for (const Settings::Feature& setting : settings) {
+    if (setting.name != feature.name || setting.switch_name != switch_name) continue;
+    if (setting.group.empty())
+      everywhere = setting.on;
+    else if (setting.group == group)
+      here = setting.on;
+  }
+  return here ? here : everywhere;
+}
+
+void apply_to(TaggedJoint& joint, const std::vector<Settings::Feature>& settings) {
+  for (FeatureTag& feature : joint.features) {
+    if (feature.name.empty()) continue;
+    const auto whole = find_setting(settings, joint.ids.local, feature, "");
+    const auto part = feature.switch_name.empty()
+                          ? std::nullopt
+                          : find_setting(settings, joint.ids.local, feature, feature.switch_name);
+    if (whole) feature.on = *whole;
+    if (part) feature.on = whole ? *whole && *part : *part;
+  }
+}
+
+}  // namespace
+
+std::optional<Settings::Feature> parse_feature_setting(std::string_view text,
+                                                       Diagnostics& diagnostics) {
+  Settings::Feature setting;
+  const auto parts = split_setting(text);
+  if (parts) {
+    std::string_view name = parts->first;
+    setting.on = parts->second;
+    const std::size_t slash = name.find('/');
+    if (slash != std::string_view::npos) {
+      setting.group = name.substr(0, slash);
+      name.remove_prefix(slash + 1);
+    }
+    const std::size_t colon = name.find(':');
+    setting.name = name.substr(0, colon);
+    if (colon != std::string_view::npos) setting.switch_name = name.substr(colon + 1);
+    const bool named = is_name(setting.name) &&
+                       (slash == std::string_view::npos || is_name(setting.group)) &&
+                       (colon == std::string_view::npos || is_name(setting.switch_name));
+    if (named) return setting;
+  }
+  diagnostics.report(codes::kBadSetting, Place(),
+                     fmt::format("\"{}\" is not a feature setting", printable(text, 100)),
+                     "write [GROUP/]NAME[:SWITCH]=on or =off");
+  return std::nullopt;
+}
+
+std::optional<std::pair<std::string, bool>> parse_group_setting(std::string_view text,
+                                                                Diagnostics& diagnostics) {
+  const auto parts = split_setting(text);
+  if (parts && is_name(parts->first)) return std::pair(std::string(parts->first), parts->second);
+  diagnostics.report(codes::kBadSetting, Place(),
+                     fmt::format("\"{}\" is not a group setting", printable(text, 100)),
+                     "write GROUP=on or GROUP=off");
+  return std::nullopt;
+}
+
+bool apply(TaggedSkeleton& skeleton, const Settings& settings, Diagnostics& diagnostics) {
+  const std::size_t errors_before = diagnostics.errors();
+  std::set<std::string> groups;
+  for (const TaggedJoint& joint : skeleton.joints)
+    if (!joint.ids.local.empty()) groups.insert(joint.ids.local);
+  for (const Settings::Feature& setting : settings.features)
+    check_feature(skeleton, setting, diagnostics);
+  for (const auto& [group, on] : settings.groups)
+    if (!groups.contains(group))
+      diagnostics.report(codes::kUnknownGroup, Place(),
+                         fmt::format("there is no group \"{}\"", printable(group, 60)),
+                         suggest(group, sorted(groups)));
+  if (diagnostics.errors() != errors_before) return false;
+
+  std::set<std::string> off;
+  for (const auto& [group, on] : settings.groups) {
+    if (on)
+      off.erase(group);
+    else
+      off.insert(group);
+  }
+  for (TaggedJoint& joint : skeleton.joints) {
+    apply_to(joint, settings.features);
+    if (off.contains(joint.ids.local))
+      for (CommandTag& command : joint.commands) command.on = false;
+  }
+  return true;
+}
+
+void set_global(TaggedSkeleton& skeleton, const std::string& global) {
+  for (TaggedJoint& joint : skeleton.joints)
+    if (joint.ids.global == skeleton.global) joint.ids.global = global;
+  skeleton.global = global;
+}
+
+}  // namespace rigc::tags
