@@ -4,8 +4,11 @@ add_library(rigc_flags INTERFACE)
 target_compile_features(rigc_flags INTERFACE cxx_std_20)
 target_compile_options(rigc_flags INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
   -Wnon-virtual-dtor -Wimplicit-fallthrough -ffp-contract=off -fno-fast-math
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # false alarms of gcc 12 on std::string (PR 105651)
   $<$<BOOL:${RIGC_WERROR}>:-Werror>)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # False alarms of gcc 12 inside std::string (its bugs 105329 and 105651).
+  target_compile_options(rigc_flags INTERFACE -Wno-stringop-overflow -Wno-restrict -Wno-array-bounds)
+endif()
 target_compile_definitions(rigc_flags INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MPL2_ONLY)
 if(RIGC_SANITIZE)
   target_compile_options(rigc_flags INTERFACE -fsanitize=${RIGC_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

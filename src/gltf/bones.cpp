@@ -36,16 +36,66 @@ class Groups {
   std::vector<int> leader_;
 };
 
+/// Lowest common ancestors in logarithmic time. Jump pointers: Myers 1983, "An applicative
+/// random-access stack".
+class Ancestry {
+ public:
+  explicit Ancestry(const Slim& slim) : nodes_(slim.nodes.size()) {
+    for (std::size_t i = 0; i < slim.preorder.size(); ++i) {
+      const int index = slim.preorder[i];
+      const int parent = slim.node(index).parent;
+      Entry& entry = at(index);
+      entry.rank = entry.last = i;
+      entry.parent = entry.jump = parent;
+      if (parent < 0) continue;
+      entry.depth = at(parent).depth + 1;
+      const int jump = at(parent).jump;
+      const int further = jump < 0 ? -1 : at(jump).jump;
+      if (depth(parent) - depth(jump) == depth(jump) - depth(further)) entry.jump = further;
+    }
+    for (std::size_t i = slim.preorder.size(); i-- > 0;)
+      if (const Entry& entry = at(slim.preorder[i]); entry.parent >= 0)
+        at(entry.parent).last = std::max(at(entry.parent).last, entry.last);
+  }
+
+  /// Place of a node in preorder.
+  std::size_t rank(int node) const { return at(node).rank; }
+
+  /// The lowest node that is above all of `nodes` and not one of them; -1: none.
+  int common(const std::vector<int>& nodes) const {
+    std::size_t first = nodes_.size(), last = 0;
+    for (int node : nodes) {
+      first = std::min(first, rank(node));
+      last = std::max(last, rank(node));
+    }
+    const auto above_all = [&](int node) {
+      return node < 0 || (at(node).rank < first && at(node).last >= last);
+    };
+    int node = nodes[0];
+    while (!above_all(node)) node = above_all(at(node).jump) ? at(node).parent : at(node).jump;
+    return node;
+  }
+
+ private:
+  struct Entry {
+    std::size_t rank = 0, last = 0;  ///< in preorder: the node, and the last one under it
+    int parent = -1, jump = -1;
+    int depth = 1;
+  };
+  int depth(int node) const { return node < 0 ? 0 : at(node).depth; }
+  const Entry& at(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
+  Entry& at(int node) { return nodes_[static_cast<std::size_t>(node)]; }
+  std::vector<Entry> nodes_;
+};
+
 /// Collects the nodes of one skeleton after the other. Each node is claimed once, so that all of
 /// them together cost no more than the file has nodes.
 class Collector {
  public:
-  Collector(const Slim& slim, const std::vector<bool>& is_joint, const std::vector<int>& above)
-      : slim_(slim), is_joint_(is_joint), above_(above) {
+  Collector(const Slim& slim, const std::vector<bool>& is_joint, const std::vector<int>& above,
+            const Ancestry& ancestry)
+      : slim_(slim), is_joint_(is_joint), above_(above), ancestry_(ancestry) {
     claimed_.resize(slim.nodes.size(), false);
-    rank_.resize(slim.nodes.size(), 0);
-    for (std::size_t i = 0; i < slim.preorder.size(); ++i)
-      rank_[static_cast<std::size_t>(slim.preorder[i])] = i;
   }
 
   Bones collect(const std::vector<int>& joints) {
@@ -53,18 +103,16 @@ class Collector {
     std::vector<int> tops;
     for (int joint : joints)
       if (above_[static_cast<std::size_t>(joint)] < 0) tops.push_back(joint);
-    bones.ancestor = common_ancestor(tops);
+    bones.ancestor = ancestry_.common(tops);
     for (int joint : joints)
       for (int i = joint; i >= 0 && i != bones.ancestor && claim(i, bones);
            i = slim_.node(i).parent) {
       }
     for (int joint : joints) claim_below(joint, bones);
     std::sort(bones.nodes.begin(), bones.nodes.end(),
-              [&](int a, int b) { return rank(a) < rank(b); });
+              [&](int a, int b) { return ancestry_.rank(a) < ancestry_.rank(b); });
     return bones;
   }
-
-  std::size_t rank(int node) const { return rank_[static_cast<std::size_t>(node)]; }
 
  private:
   bool claim(int node, Bones& bones) {
@@ -88,32 +136,11 @@ class Collector {
     }
   }
 
-  /// Climbs from each top to where a path that was climbed before begins.
-  int common_ancestor(const std::vector<int>& tops) const {
-    std::map<int, std::size_t>
-        height;  // steps above the first top at which a node's path joins its path
-    std::vector<int> path;
-    for (int i = slim_.node(tops[0]).parent; i >= 0; i = slim_.node(i).parent) {
-      height[i] = path.size();
-      path.push_back(i);
-    }
-    std::size_t common = 0;
-    for (int top : tops) {
-      std::vector<int> climbed;
-      int i = slim_.node(top).parent;
-      for (; i >= 0 && height.count(i) == 0; i = slim_.node(i).parent) climbed.push_back(i);
-      const std::size_t joins = i < 0 ? path.size() : height[i];
-      for (int node : climbed) height[node] = joins;
-      common = std::max(common, joins);
-    }
-    return common < path.size() ? path[common] : -1;
-  }
-
   const Slim& slim_;
   const std::vector<bool>& is_joint_;
   const std::vector<int>& above_;
+  const Ancestry& ancestry_;
   std::vector<bool> claimed_;
-  std::vector<std::size_t> rank_;
 };
 
 void add_bone(std::vector<std::pair<std::string, int>>& bones, const json::Value& name_or_empty,
@@ -169,11 +196,12 @@ std::vector<Bones> find_bones(const Slim& slim,
   for (int index : slim.preorder)
     if (is_joint[static_cast<std::size_t>(index)]) joints[groups.leader(index)].push_back(index);
 
-  Collector collector(slim, is_joint, above);
+  const Ancestry ancestry(slim);
+  Collector collector(slim, is_joint, above, ancestry);
   std::vector<std::pair<std::size_t, int>> order;  // topmost joint and skin
   for (std::size_t k = 0; k < slim.skins.size(); ++k) {
     std::size_t first = slim.nodes.size();
-    for (int joint : slim.skins[k].joints) first = std::min(first, collector.rank(joint));
+    for (int joint : slim.skins[k].joints) first = std::min(first, ancestry.rank(joint));
     order.emplace_back(first, static_cast<int>(k));
   }
   std::sort(order.begin(), order.end());

@@ -19,6 +19,8 @@ namespace constraint = scene::constraint;
 
 /// Joints nearer to the middle than this, in heights of the character, are on no side.
 constexpr double kMiddle = 0.01;
+/// Cosine above which two axes count as one.
+constexpr double kAligned = 0.999;
 constexpr Vec3 kLeftColor{0.16, 0.42, 0.95};
 constexpr Vec3 kRightColor{0.93, 0.16, 0.18};
 constexpr Vec3 kMiddleColor{0.98, 0.82, 0.13};
@@ -60,15 +62,38 @@ std::vector<double> placed(const Lines& lines, const ControlSpec& spec) {
   return out;
 }
 
-/// Identity of the control that the same command makes on the other side.
-std::string opposite_identity(const Builder& b, NodeId control, NodeId joint) {
-  const tags::TaggedJoint* owner = b.tagged(joint);
+/// Signs of scene::control::kMirror: what the character's mirror plane does to the control's axes,
+/// seen from the axes of the control on the other side.
+std::vector<double> mirror_signs(const Builder& b, const ControlSpec& spec, NodeId opposite) {
+  if (spec.axes == AxesFrom::bone) return {-1, -1, -1};
+  const Vec3 left = b.character().left;
+  const math::Mat3 other = spec.axes == AxesFrom::joint
+                               ? math::orthonormal(rest(b, opposite).linear)
+                               : spec.frame.linear;
+  const Vec3 own_axes[3] = {spec.frame.linear.x, spec.frame.linear.y, spec.frame.linear.z};
+  const Vec3 other_axes[3] = {other.x, other.y, other.z};
+  std::vector<double> signs;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 reflected = own_axes[i] - left * (2 * math::dot(left, own_axes[i]));
+    const double cosine = math::dot(reflected, other_axes[i]);
+    signs.push_back(cosine > kAligned ? 1.0 : cosine < -kAligned ? -1.0 : 0.0);
+  }
+  return signs;
+}
+
+/// Names the control that the same command makes on the other side, and how values are copied to
+/// it.
+void set_opposite(Builder& b, NodeId control, const ControlSpec& spec) {
+  const tags::TaggedJoint* owner = b.tagged(spec.joint);
   const tags::TaggedJoint* holder = b.tagged(b.joint());
-  if (!owner || !holder || owner->mirror.opposite.uid == 0) return {};
+  if (!owner || !holder || owner->mirror.opposite.uid == 0) return;
+  const NodeId opposite = b.index().joint(owner->mirror.opposite);
+  if (!opposite.valid()) return;
   Identity identity = b.scene()[control].identity;
   identity.owner = owner->mirror.opposite;
   if (holder->mirror.opposite.uid != 0) identity.holder = holder->mirror.opposite;
-  return to_text(identity);
+  b.set({control, scene::control::kOpposite}, to_text(identity));
+  b.set({control, scene::control::kMirror}, mirror_signs(b, spec, opposite));
 }
 
 void place(Builder& b, NodeId node, NodeId parent, const Affine& frame) {
@@ -174,7 +199,7 @@ ControlNodes make_control(Builder& b, const ControlSpec& spec) {
   b.set(
       {made.control, control::kKeyable},
       static_cast<double>((spec.translate ? 1 : 0) + (spec.rotate ? 2 : 0) + (spec.scale ? 4 : 0)));
-  b.set({made.control, control::kOpposite}, opposite_identity(b, made.control, spec.joint));
+  set_opposite(b, made.control, spec);
   return made;
 }
 

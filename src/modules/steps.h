@@ -10,6 +10,9 @@
 
 namespace rigc::modules {
 
+/// Where a control's axes come from: tells how its values are copied to the other side.
+enum class AxesFrom : std::uint8_t { character, bone, joint };
+
 // --- geometry at rest, rig space ---
 
 math::Affine rest(const Builder& b, NodeId node);
@@ -29,6 +32,7 @@ double bone_length(const Builder& b, NodeId joint);
 math::Mat3 bone_frame(const Builder& b, NodeId joint, math::Vec3 direction);
 /// `orient:` of controls and transforms: character, world, joint or bone, at the joint's position.
 math::Affine oriented(const Builder& b, NodeId joint, const std::string& orient);
+AxesFrom axes_from(const std::string& orient);
 bool is_mirrored(const Builder& b, NodeId joint);
 /// forward, backward, left, right, up, down of the character as a unit vector.
 math::Vec3 character_direction(const Builder& b, const std::string& name);
@@ -58,6 +62,7 @@ struct ControlSpec {
   math::Vec3 color;            ///< sRGB
   math::Vec3 facing{0, 1, 0};  ///< axis of the control that the shape's normal points along
   math::Vec3 offset;           ///< of the shape, control axes, rig units
+  AxesFrom axes = AxesFrom::character;
   bool translate = true, rotate = true, scale = false;
   std::string shape_parameter = "shape";  ///< named in messages
 };

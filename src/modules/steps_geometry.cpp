@@ -97,6 +97,11 @@ Mat3 bone_frame(const Builder& b, NodeId joint, Vec3 direction) {
   return math::frame(direction * sign, second * sign);
 }
 
+AxesFrom axes_from(const std::string& orient) {
+  if (orient == "bone") return AxesFrom::bone;
+  return orient == "joint" ? AxesFrom::joint : AxesFrom::character;
+}
+
 math::Affine oriented(const Builder& b, NodeId joint, const std::string& orient) {
   const math::Affine at = rest(b, joint);
   if (orient == "joint") return {math::orthonormal(at.linear), at.origin};

@@ -40,6 +40,8 @@ constexpr AttributeSpec kControl[] = {
      "What animators key: 1 translate, 2 rotate, 4 scale, added up."},
     {"opposite", Type::text, kData, kSingle, kFixed, 0,
      "Identity of the control on the other side."},
+    {"mirror", Type::numbers, kData, kSingle, kFixed, 0,
+     "signs with which translations are copied to the opposite"},
 };
 
 constexpr AttributeSpec kConstraint[] = {
@@ -182,7 +184,8 @@ constexpr At kControlAt[] = {{control::kShape, "shape"},
                              {control::kPoints, "points"},
                              {control::kColor, "color"},
                              {control::kKeyable, "keyable"},
-                             {control::kOpposite, "opposite"}};
+                             {control::kOpposite, "opposite"},
+                             {control::kMirror, "mirror"}};
 static_assert(std::size(kControl) == transform::kCount + std::size(kControlAt) &&
               matches(kControl, kControlAt));
 

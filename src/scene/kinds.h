@@ -82,6 +82,10 @@ inline constexpr std::uint16_t kPoints =
 inline constexpr std::uint16_t kColor = 9;      ///< vec3, sRGB 0..1
 inline constexpr std::uint16_t kKeyable = 10;   ///< number: bits 1 translate, 2 rotate, 4 scale
 inline constexpr std::uint16_t kOpposite = 11;  ///< text: identity of the control on the other side
+/// numbers: for x, y, z the sign with which a translation is copied to the opposite control to
+/// mirror the pose; a rotation about that axis takes the other sign; 0 where copying cannot mirror.
+/// Empty without an opposite.
+inline constexpr std::uint16_t kMirror = 12;
 }  // namespace control
 
 /// A constraint with weighted targets. All matrices in rig space. Output goes to the driven

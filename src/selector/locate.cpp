@@ -19,7 +19,6 @@ std::optional<std::uint32_t> Locator::first_column() const {
 }
 
 Span Locator::at(std::size_t offset, std::size_t length) {
-  if (offset == 0 && length == text_.size()) return span_;
   if (!looked_) first_ = first_column();
   looked_ = true;
   if (!first_) return span_;

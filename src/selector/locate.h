@@ -17,6 +17,8 @@ class Locator {
   Locator(std::string_view text, const Span& span, const Sources& sources)
       : text_(text), span_(span), sources_(sources) {}
   Span at(std::size_t offset, std::size_t length);
+  /// The span of the whole value, without a look into its source: every selector keeps one.
+  const Span& whole() const { return span_; }
 
  private:
   std::optional<std::uint32_t> first_column() const;

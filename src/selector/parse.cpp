@@ -101,13 +101,17 @@ std::optional<Selector> Parser::selector() {
   Selector result;
   bool ok = true;
   skip_spaces();
-  if (at_end()) return error(codes::kEmpty, 0, "the selector is empty"), std::nullopt;
+  if (at_end()) {
+    diagnostics_.report(codes::kEmpty, locator_.whole(), "the selector is empty");
+    return std::nullopt;
+  }
   do {
     Choice one;
     skip_spaces();
     const std::size_t begin = position_;
     if (choice(one)) {
-      one.span = locator_.at(begin, position_ - begin);
+      const bool alone = position_ - begin == text_.size();
+      one.span = alone ? locator_.whole() : locator_.at(begin, position_ - begin);
       result.choices.push_back(std::move(one));
       skip_spaces();
     } else {
@@ -131,7 +135,7 @@ std::optional<Selector> Parser::selector() {
                         "write `@attribute` after every choice or after none");
     return std::nullopt;
   }
-  result.span = locator_.at(0, text_.size());
+  result.span = locator_.whole();
   return result;
 }
 

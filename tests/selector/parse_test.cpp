@@ -130,8 +130,8 @@ TEST_CASE("selector parse: a text that its source spells otherwise is marked as 
 TEST_CASE("selector parse: what is wrong and where") {
   using namespace rigc::selector::codes;
   const Bad bads[] = {
-      {"", kEmpty, 1, 0, "the selector is empty"},
-      {"   ", kEmpty, 1, 0, "the selector is empty"},
+      {"", kEmpty, 1, 1, "the selector is empty"},
+      {"   ", kEmpty, 1, 1, "the selector is empty"},
       {"a |", kEmpty, 4, 0, "a choice is empty"},
       {"|a", kEmpty, 1, 1, "a choice is empty"},
       {"?", kEmpty, 1, 1, "a choice is empty"},

@@ -11,6 +11,7 @@ void control(Builder& b) {
   ControlSpec spec;
   spec.joint = b.joint();
   spec.frame = oriented(b, b.joint(), with.text("orient"));
+  spec.axes = axes_from(with.text("orient"));
   spec.space = with.has("parent") ? with.node("parent") : space_of(b, b.joint());
   spec.shape = with.text("shape");
   spec.size = with.number("size");

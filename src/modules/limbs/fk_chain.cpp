@@ -15,6 +15,7 @@ void fk_chain(Builder& b) {
   ControlSpec spec;
   spec.role = "fk";
   spec.shape = with.text("shape");
+  spec.axes = axes_from(orient);
   spec.size = with.number("size");
   spec.translate = with.flag("translate");
   spec.space = with.has("parent") ? with.node("parent") : space_of(b, joints.front());

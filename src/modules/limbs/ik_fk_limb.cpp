@@ -43,6 +43,7 @@ void make_fk(Builder& b, Limb& limb) {
         i < 2 ? math::normalised(position(b, limb.joints[i + 1]) - position(b, joint))
               : bone_direction(b, joint);
     spec.frame = {bone_frame(b, joint, direction), position(b, joint)};
+    spec.axes = AxesFrom::bone;
     spec.facing = {1, 0, 0};
     spec.space = space;
     spec.translate = false;
@@ -56,6 +57,7 @@ void make_ik(Builder& b, Limb& limb) {
   const NodeId space = with.has("ik_parent") ? with.node("ik_parent") : root_control(b);
   ControlSpec spec = look(b, limb.joints[2], "ik");
   spec.frame = oriented(b, limb.joints[2], with.text("ik_orient"));
+  spec.axes = axes_from(with.text("ik_orient"));
   spec.space = space;
   limb.ik = make_control(b, spec).control;
   if (b.failed()) return;
