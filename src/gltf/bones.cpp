@@ -104,10 +104,10 @@ class Collector {
     for (int joint : joints)
       if (above_[static_cast<std::size_t>(joint)] < 0) tops.push_back(joint);
     bones.ancestor = ancestry_.common(tops);
-    for (int joint : joints)
-      for (int i = joint; i >= 0 && i != bones.ancestor && claim(i, bones);
-           i = slim_.node(i).parent) {
-      }
+    for (int joint : joints) {
+      int node = joint;
+      while (node != bones.ancestor && claim(node, bones)) node = slim_.node(node).parent;
+    }
     for (int joint : joints) claim_below(joint, bones);
     std::sort(bones.nodes.begin(), bones.nodes.end(),
               [&](int a, int b) { return ancestry_.rank(a) < ancestry_.rank(b); });

@@ -125,7 +125,7 @@ std::optional<std::size_t> Check::in_range(const json::Value& value, std::string
   }
   if (*number < 0 || static_cast<std::uint64_t>(*number) >= count) {
     report(codes::kIndex, value,
-           fmt::format("there is no {} {}: the file has {}", array, *number, count));
+           fmt::format("\"{}\" has no element {}: it has {}", array, *number, count));
     return std::nullopt;
   }
   return static_cast<std::size_t>(*number);

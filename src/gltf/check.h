@@ -31,6 +31,7 @@ struct AccessorFacts {
 struct ViewFacts {
   std::int64_t length = 0;
   std::int64_t stride = 0;  ///< 0: not given
+  bool stride_ok() const { return stride >= 0 && stride <= 252 && stride % 4 == 0; }
 };
 
 /// What the checks share: the top-level arrays and lookups that report what is wrong.

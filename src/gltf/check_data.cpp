@@ -25,7 +25,7 @@ void check_range(Check& check, const json::Value& holder, std::size_t view_index
   const auto bytes = static_cast<std::int64_t>(size);
   const std::int64_t stride = strided && view.stride != 0 ? view.stride : bytes;
   const std::int64_t offset = holder["byteOffset"].integer().value_or(0);
-  if (stride < 1 || offset < 0) return;  // said of the view, of the accessor
+  if (!view.stride_ok() || view.length < 1 || offset < 0) return;  // reported where it stands
   if (stride < bytes)
     check.report(codes::kStride, holder,
                  fmt::format("byteStride {} of buffer view {} is below the {} bytes of an element",
@@ -113,7 +113,7 @@ void check_buffer_views(Check& check) {
     const auto length = check.whole(view, "byteLength", 1, true);
     const auto offset = check.whole(view, "byteOffset", 0).value_or(0);
     const auto stride = check.whole(view, "byteStride", 0);
-    if (stride && (*stride < 4 || *stride > 252 || *stride % 4 != 0))
+    if (stride && (*stride == 0 || !ViewFacts{0, *stride}.stride_ok()))
       check.report(codes::kStride, view["byteStride"], fmt::format("byteStride is {}", *stride));
     if (!buffer || !length) continue;
     const std::int64_t all = lengths[*buffer];

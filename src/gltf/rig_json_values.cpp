@@ -20,6 +20,7 @@ using scene::Type;
 using scene::Value;
 
 constexpr std::array<std::string_view, 4> kFlavours = {"number", "integer", "boolean", "angle"};
+constexpr std::size_t kMostElements = 4096;
 constexpr std::size_t kMostUser = 900;   // plugs number them in 16 bits from 1000; nobody needs more
 
 /// Whether an attribute is stored: outputs are computed, and `rotate` is a view of `rotation`.
@@ -114,14 +115,17 @@ std::optional<Value> read_value(const json::Value& value, JsonReader& reader, Ty
   return as(std::vector<double>{});
 }
 
-void read_attribute(const json::Value& value, JsonReader& reader, scene::Edit& edit, const Plug& plug,
+void read_attribute(const json::Value& value, JsonReader& reader, SceneMaker& maker, const Plug& plug,
                     const AttributeSpec& attribute) {
   if (!attribute.array) {
-    if (const auto read = read_value(value, reader, attribute.type)) edit.set(plug, *read);
+    if (const auto read = read_value(value, reader, attribute.type)) maker.set(plug, *read);
     return;
   }
   if (!value.is_array())
     return reader.fail(codes::kRigValue, value, fmt::format("\"{}\" is a list", attribute.name));
+  if (value.size() > kMostElements)
+    return reader.fail(codes::kRigTooLarge, value,
+                       fmt::format("\"{}\" has more than {} elements", attribute.name, kMostElements));
   Plug element = plug;
   element.element = 0;
   for (const json::Value& item : value.items()) {
@@ -129,12 +133,12 @@ void read_attribute(const json::Value& value, JsonReader& reader, scene::Edit& e
                           ? std::optional<Value>(scene::initial_value(attribute))
                           : read_value(item, reader, attribute.type);
     if (!read) return;
-    edit.set(element, *read);
+    maker.set(element, *read);
     ++element.element;
   }
 }
 
-void read_user(const json::Value& item, JsonReader& reader, scene::Edit& edit, NodeId id) {
+void read_user(const json::Value& item, JsonReader& reader, SceneMaker& maker, NodeId id) {
   scene::UserAttribute attribute;
   std::string flavour;
   reader.get(item, "name", attribute.name, Need::required);
@@ -155,10 +159,10 @@ void read_user(const json::Value& item, JsonReader& reader, scene::Edit& edit, N
   if (!is_name(attribute.name) || attribute.name == "rigc")
     return reader.fail(codes::kRigText, item["name"],
                        fmt::format("\"{}\" is no name of an attribute", printable(attribute.name)));
-  if (edit.scene().find_plug(id, attribute.name))
+  if (maker.scene().find_plug(id, attribute.name))
     return reader.fail(codes::kRigDuplicate, item["name"],
                        fmt::format("the node has an attribute \"{}\" already", attribute.name));
-  edit.add_attribute(id, std::move(attribute));
+  maker.add_attribute(id, std::move(attribute));
 }
 
 /// `weights[1]`, `translate.x`; names of attributes have no dots.
@@ -177,8 +181,8 @@ bool exists(const scene::Scene& scene, const Plug& plug) {
   return static_cast<std::size_t>(plug.element) < scene[plug.node].attributes[plug.attribute].size();
 }
 
-void read_input(const json::Value& item, JsonReader& reader, scene::Edit& edit, NodeId id) {
-  const scene::Scene& scene = edit.scene();
+void read_input(const json::Value& item, JsonReader& reader, SceneMaker& maker, NodeId id) {
+  const scene::Scene& scene = maker.scene();
   const auto parts = item.items();
   std::string to_path, from_path;
   std::int64_t from_node = 0;
@@ -205,7 +209,7 @@ void read_input(const json::Value& item, JsonReader& reader, scene::Edit& edit, 
   if (scene.source(*to))
     return reader.fail(codes::kRigDuplicate, parts[0],
                        fmt::format("\"{}\" is connected twice", printable(to_path)));
-  edit.connect(*from, *to);
+  maker.connect(*from, *to);
 }
 
 }  // namespace
@@ -227,8 +231,8 @@ void write_values(json::Writer& writer, const scene::Scene& scene, NodeId id) {
   writer.end_array();
 }
 
-void read_values(const json::Value& object, JsonReader& reader, scene::Edit& edit, NodeId id) {
-  const scene::KindSpec& kind = scene::spec(edit.scene()[id].kind);
+void read_values(const json::Value& object, JsonReader& reader, SceneMaker& maker, NodeId id) {
+  const scene::KindSpec& kind = scene::spec(maker.scene()[id].kind);
   for (const auto& [name, value] : reader.members(object, "values")) {
     std::size_t attribute = 0;
     while (attribute < kind.attributes.size() && kind.attributes[attribute].name != name) ++attribute;
@@ -238,14 +242,14 @@ void read_values(const json::Value& object, JsonReader& reader, scene::Edit& edi
       continue;
     }
     const Plug plug{id, static_cast<std::uint16_t>(attribute)};
-    read_attribute(value, reader, edit, plug, kind.attributes[attribute]);
+    read_attribute(value, reader, maker, plug, kind.attributes[attribute]);
   }
   for (const json::Value& item : reader.objects(object, "user", kMostUser))
-    read_user(item, reader, edit, id);
+    read_user(item, reader, maker, id);
 }
 
-void read_inputs(const json::Value& object, JsonReader& reader, scene::Edit& edit, NodeId id) {
-  for (const json::Value& item : reader.items(object, "inputs")) read_input(item, reader, edit, id);
+void read_inputs(const json::Value& object, JsonReader& reader, SceneMaker& maker, NodeId id) {
+  for (const json::Value& item : reader.items(object, "inputs")) read_input(item, reader, maker, id);
 }
 
 }  // namespace rigc::gltf

@@ -90,9 +90,12 @@ int Expander::resolve(int use, const std::string& word, const Span& span, const 
 }
 
 void Expander::resolve_parents() {
-  for (Use& use : uses_)
-    if (use.part && !use.part->attach.empty())
-      use.attach = resolve(use.outer, use.part->attach, use.part->attach_span, "attach");
+  for (Use& use : uses_) {
+    if (!use.part) continue;
+    use.attach = use.part->attach.empty()
+                     ? uses_[static_cast<std::size_t>(use.outer)].attach
+                     : resolve(use.outer, use.part->attach, use.part->attach_span, "attach");
+  }
   for (RawJoint& joint : joints_) {
     const Joint& source = *joint.source;
     joint.parent = source.parent.empty()

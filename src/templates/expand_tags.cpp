@@ -101,22 +101,24 @@ void Expander::rename(int use, const catalog::Parameter& parameter, Literal& val
   }
 }
 
-/// A part without a catalogue of its own uses that of the nearest template around it that has one.
+/// A part without a catalogue of its own uses those of the templates around it.
 void Expander::check_declared_outside(const Use& use, const tags::FeatureTag& tag) {
+  const Use* nearest_catalogue = nullptr;
   for (int outer = use.outer; outer >= 0;) {
-    const Use* at = &uses_[static_cast<std::size_t>(outer)];
-    outer = at->outer;
-    if (!at->source->has_catalogue) continue;
-    if (at->source->find_feature(tag.name)) return;
-    std::vector<std::string> names;
-    for (const tags::FeatureDeclaration& feature : at->source->features)
-      names.push_back(feature.name);
-    diagnostics_.report(codes::kUndeclaredFeature, tag.span,
-                        fmt::format("feature \"{}\" is not in `features:` of {}", tag.name,
-                                    at->source->name),
-                        suggest(tag.name, names));
-    return;
+    const Use& around = uses_[static_cast<std::size_t>(outer)];
+    if (around.source->find_feature(tag.name)) return;
+    if (!nearest_catalogue && around.source->has_catalogue) nearest_catalogue = &around;
+    outer = around.outer;
   }
+  const auto place = std::pair(tag.span.file, std::pair(tag.span.line, tag.span.column));
+  if (!nearest_catalogue || !undeclared_.insert(place).second) return;
+  std::vector<std::string> names;
+  for (const tags::FeatureDeclaration& feature : nearest_catalogue->source->features)
+    names.push_back(feature.name);
+  diagnostics_.report(codes::kUndeclaredFeature, tag.span,
+                      fmt::format("feature \"{}\" is not in `features:` of {}", tag.name,
+                                  nearest_catalogue->source->name),
+                      suggest(tag.name, names));
 }
 
 /// One catalogue for the rig, outer templates first; then each tag gets its kind and default from it.

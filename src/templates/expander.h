@@ -111,6 +111,8 @@ class Expander {
   tags::TaggedSkeleton skeleton_;
   std::size_t joint_count_ = 0;    ///< with all joints of chains
   bool full_ = false;
+  /// Tags that were reported: a part that is used twice has its mistakes once.
+  std::set<std::pair<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>>> undeclared_;
 };
 
 /// `elbow_l` for `elbow_r`, `LeftArm` is not understood; empty where no word names a side.

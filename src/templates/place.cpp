@@ -52,7 +52,8 @@ class Placer {
   void find_first_children();
   Affine to_main(int instance, const Affine& own) const;
   Affine seen_from(int instance, const Affine& main) const;
-  Affine parent_frame(const ExpandedJoint& joint) const;
+  bool lies_in(int instance, int outer) const;
+  Affine view(int instance, std::size_t joint) const;
   std::optional<Vec3> target(std::size_t index) const;
   math::Trs own_rest(std::size_t index, const Affine& parent);
   Mat3 aimed(const ExpandedJoint& joint, const Orient& orient, Vec3 from, Vec3 to);
@@ -112,23 +113,24 @@ Affine Placer::seen_from(int instance, const Affine& main) const {
   return {times(from_main.linear * main.linear, turn), from_main * main.origin};
 }
 
-/// The parent's frame in the space of the joint's instance. A part that hangs on a joint outside of it sees
-/// that joint's frame as it is, mirrored or not: both arms see one and the same chest.
-Affine Placer::parent_frame(const ExpandedJoint& joint) const {
-  if (joint.tagged.parent < 0) return {};
-  const auto parent = static_cast<std::size_t>(joint.tagged.parent);
-  const ExpandedJoint& parent_joint = expanded_.joints[parent];
-  if (parent_joint.instance == joint.instance) return placed_[parent].own;
-  for (int at = parent_joint.instance; at >= 0;
-       at = expanded_.instances[static_cast<std::size_t>(at)].outer)
-    if (at == joint.instance) return seen_from(joint.instance, placed_[parent].main);
+bool Placer::lies_in(int instance, int outer) const {
+  for (; instance >= 0; instance = expanded_.instances[static_cast<std::size_t>(instance)].outer)
+    if (instance == outer) return true;
+  return false;
+}
 
-  const Instance& instance = expanded_.instances[static_cast<std::size_t>(joint.instance)];
-  Affine frame = seen_from(instance.outer, placed_[parent].main);
-  const bool outer_mirrored = spaces_[static_cast<std::size_t>(instance.outer)].mirrored;
+/// A placed joint's frame in the space of an instance. A part that hangs on a joint outside of it sees that
+/// joint's frame as it is and not mirrored: both arms see one and the same chest.
+Affine Placer::view(int instance_index, std::size_t index) const {
+  const ExpandedJoint& joint = expanded_.joints[index];
+  if (joint.instance == instance_index) return placed_[index].own;
+  if (lies_in(joint.instance, instance_index)) return seen_from(instance_index, placed_[index].main);
+  const Instance& instance = expanded_.instances[static_cast<std::size_t>(instance_index)];
+  Affine frame = view(instance.outer, index);
   if (instance.mirror) {
     frame.origin = reflected(frame.origin, *instance.mirror);
-    if (parent_joint.tagged.mirror.mirrored != outer_mirrored)
+    const bool outer_mirrored = spaces_[static_cast<std::size_t>(instance.outer)].mirrored;
+    if (lies_in(joint.instance, instance.outer) && joint.tagged.mirror.mirrored != outer_mirrored)
       frame.linear = times(reflected(frame.linear, *instance.mirror), -1);
   }
   const math::Quat back = conjugate(instance.rotation);
@@ -237,7 +239,8 @@ void Placer::add(std::size_t index, std::uint32_t ordinal, int parent, const mat
 void Placer::place_joint(std::size_t index) {
   const ExpandedJoint& joint = expanded_.joints[index];
   const int parent = joint.tagged.parent;
-  const Affine parent_own = parent_frame(joint);
+  const Affine parent_own =
+      parent < 0 ? Affine{} : view(joint.instance, static_cast<std::size_t>(parent));
   math::Trs rest = own_rest(index, parent_own);
   Affine own = parent_own * compose(rest);
   Affine main = to_main(joint.instance, own);

@@ -93,7 +93,7 @@ struct Part {
   std::string reference;           ///< `parts/arm`
   std::string as;
   std::vector<std::string> was;    ///< earlier `as`, oldest first
-  std::string attach;              ///< a joint or label of the outer template; empty: its roots stay roots
+  std::string attach;              ///< a joint or label of the outer template; empty: as the outer one's roots
   std::optional<int> mirror;       ///< 0 x, 1 y, 2 z: reflected at that plane of the outer model space
   math::Vec3 at;                   ///< origin of the part in outer model space, metres
   math::Quat rotation;             ///< of the part in outer model space
