@@ -98,6 +98,13 @@ std::string Patch::State::member(std::string_view name) const {
   return std::string(file.root()[name].text());
 }
 
+std::string_view Patch::State::original_extras(int node) const {
+  const ArrayChanges* nodes = find("nodes");
+  const auto index = static_cast<std::size_t>(node);
+  if (!nodes || index >= nodes->original.size()) return {};
+  return nodes->original[index]["extras"].text();
+}
+
 void Patch::State::set_member(std::string_view name, std::string json) {
   for (auto& [key, text] : members) {
     if (key != name) continue;
@@ -228,7 +235,8 @@ void Patch::set_extra(int node, std::string_view key, std::string json) {
   if (extras.front() != '{') return;
   std::string changed = with_member(extras, key, std::move(json));
   if (changed == extras) return;
-  if (is_empty_container(changed)) changed.clear();
+  if (is_empty_container(changed) && !is_empty_container(state_->original_extras(node)))
+    changed.clear();
   set_member("nodes", node, "extras", std::move(changed));
 }
 
@@ -237,7 +245,9 @@ void Patch::set_root_extension(std::string_view name, std::string json) {
   const bool removes = json.empty();
   if (extensions.empty() && removes) return drop_extension(name);
   std::string changed = with_member(extensions.empty() ? "{}" : extensions, name, std::move(json));
-  if (removes && is_empty_container(changed)) changed.clear();
+  if (removes && is_empty_container(changed) &&
+      !is_empty_container(file_.root()["extensions"].text()))
+    changed.clear();
   state_->set_member("extensions", std::move(changed));
   removes ? drop_extension(name) : use_extension(name);
 }

@@ -4,6 +4,7 @@
 // tests/gltf/patch_test.cpp
 #pragma once
 
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -43,9 +44,10 @@ struct Patch::State {
   /// Text of a root member as it is now; empty where there is none.
   std::string member(std::string_view name) const;
   void set_member(std::string_view name, std::string json);
+  std::string_view original_extras(int node) const;
 
   const File& file;
-  std::vector<std::pair<std::string, ArrayChanges>> arrays;  ///< in the order first touched
+  std::deque<std::pair<std::string, ArrayChanges>> arrays;   ///< in the order first touched; never move
   std::vector<std::pair<std::string, std::string>> members;  ///< of the root; empty text: removed
   std::string data;
   std::vector<PendingView> views;

@@ -49,7 +49,7 @@ Outcome run_in(const fs::path& folder, const std::string& command, const std::st
   std::vector<std::string> arguments = {command, input};
   if (command == "build") arguments.insert(arguments.end(), {"-o", output.string()});
   for (const std::string& extra : extra_arguments(folder)) arguments.push_back(extra);
-  return rigc::test::rigc(arguments, {folder, {}});
+  return rigc::test::run_rigc(arguments, {folder, {}});
 }
 
 void check_bad(const fs::path& folder, const std::string& command, const fs::path& output) {

@@ -13,7 +13,7 @@
 
 namespace fs = std::filesystem;
 using rigc::test::Outcome;
-using rigc::test::rigc;
+using rigc::test::run_rigc;
 
 namespace {
 
@@ -51,23 +51,23 @@ std::size_t files_in(const fs::path& folder) {
   return count;
 }
 
-fs::path biped() { return ::rigc::test::source_folder() / "templates/biped.yaml"; }
+fs::path biped() { return rigc::test::source_folder() / "templates/biped.yaml"; }
 
 }  // namespace
 
 TEST_CASE("cli: --version and --help go to stdout and succeed") {
-  const Outcome version = rigc({"--version"});
+  const Outcome version = run_rigc({"--version"});
   CHECK(version.status == 0);
   CHECK(version.out.rfind("rigc ", 0) == 0);
   CHECK(version.err.empty());
-  const Outcome help = rigc({"--help"});
+  const Outcome help = run_rigc({"--help"});
   CHECK(help.status == 0);
   CHECK(help.err.empty());
   for (const char* command :
        {"build", "check", "plan", "inspect", "query", "bake", "modules", "schema"}) {
     INFO(command);
     CHECK(help.out.find(std::string("\n  ") + command + " ") != std::string::npos);
-    const Outcome own = rigc({command, "--help"});
+    const Outcome own = run_rigc({command, "--help"});
     CHECK(own.status == 0);
     CHECK(own.out.find("--json") != std::string::npos);
   }
@@ -83,7 +83,7 @@ TEST_CASE("cli: wrong usage gives status 2, an explanation on stderr and nothing
         {"bake", "x.glb", "-o"},
         {"bake", "x.glb", "-o", "y.glb", "--start", "soon"},
         {"--json"}}) {
-    const Outcome outcome = rigc(arguments);
+    const Outcome outcome = run_rigc(arguments);
     INFO("after " << arguments.size() << " arguments: " << outcome.err);
     CHECK(outcome.status == 2);
     CHECK_FALSE(outcome.err.empty());
@@ -92,11 +92,11 @@ TEST_CASE("cli: wrong usage gives status 2, an explanation on stderr and nothing
 }
 
 TEST_CASE("cli: errors in the work give status 1 and write nothing") {
-  const fs::path folder = ::rigc::test::fresh_folder("errors");
+  const fs::path folder = rigc::test::fresh_folder("errors");
   write(folder / "in/lever.yaml", with_unknown_module());
   fs::create_directories(folder / "out");
   const std::string out = (folder / "out/lever.glb").string();
-  const Outcome build = rigc({"build", "lever.yaml", "-o", out}, {folder / "in", {}});
+  const Outcome build = run_rigc({"build", "lever.yaml", "-o", out}, {folder / "in", {}});
   CHECK(build.status == 1);
   CHECK(build.err.find("lever.yaml:10:") == 0);
   CHECK(build.err.find(": error[RIG0236]: ") != std::string::npos);
@@ -106,33 +106,33 @@ TEST_CASE("cli: errors in the work give status 1 and write nothing") {
   CHECK(files_in(folder / "in") == 1);
 
   write(folder / "out/lever.glb", "precious");
-  CHECK(rigc({"build", "lever.yaml", "-o", out}, {folder / "in", {}}).status == 1);
-  CHECK(::rigc::test::file_text(out) == "precious");
-  CHECK(rigc({"check", "lever.yaml"}, {folder / "in", {}}).status == 1);
-  CHECK(rigc({"bake", "lever.yaml", "-o", out}, {folder / "in", {}}).status == 1);
-  CHECK(rigc({"inspect", "lever.yaml"}, {folder / "in", {}}).status == 1);
-  CHECK(::rigc::test::file_text(out) == "precious");
+  CHECK(run_rigc({"build", "lever.yaml", "-o", out}, {folder / "in", {}}).status == 1);
+  CHECK(rigc::test::file_text(out) == "precious");
+  CHECK(run_rigc({"check", "lever.yaml"}, {folder / "in", {}}).status == 1);
+  CHECK(run_rigc({"bake", "lever.yaml", "-o", out}, {folder / "in", {}}).status == 1);
+  CHECK(run_rigc({"inspect", "lever.yaml"}, {folder / "in", {}}).status == 1);
+  CHECK(rigc::test::file_text(out) == "precious");
 }
 
 TEST_CASE("cli: status 3 where the file system refuses") {
-  const fs::path folder = ::rigc::test::fresh_folder("refused");
+  const fs::path folder = rigc::test::fresh_folder("refused");
   write(folder / "lever.yaml", kTemplate);
   const Outcome no_folder =
-      rigc({"build", "lever.yaml", "-o", "no/such/folder/x.glb"}, {folder, {}});
+      run_rigc({"build", "lever.yaml", "-o", "no/such/folder/x.glb"}, {folder, {}});
   CHECK(no_folder.status == 3);
   CHECK(no_folder.err.find("error[RIG") != std::string::npos);
-  CHECK(rigc({"inspect", "missing.glb"}, {folder, {}}).status == 3);
-  CHECK(rigc({"bake", "missing.glb", "-o", "x.glb"}, {folder, {}}).status == 3);
+  CHECK(run_rigc({"inspect", "missing.glb"}, {folder, {}}).status == 3);
+  CHECK(run_rigc({"bake", "missing.glb", "-o", "x.glb"}, {folder, {}}).status == 3);
   fs::create_directories(folder / "folder.glb");
-  CHECK(rigc({"inspect", "folder.glb"}, {folder, {}}).status == 3);
-  CHECK(rigc({"build", "lever.yaml", "-o", "folder.glb"}, {folder, {}}).status == 3);
+  CHECK(run_rigc({"inspect", "folder.glb"}, {folder, {}}).status == 3);
+  CHECK(run_rigc({"build", "lever.yaml", "-o", "folder.glb"}, {folder, {}}).status == 3);
 }
 
 TEST_CASE("cli: --json prints one JSON document and nothing else") {
-  const fs::path folder = ::rigc::test::fresh_folder("json");
+  const fs::path folder = rigc::test::fresh_folder("json");
   write(folder / "lever.yaml", kTemplate);
   write(folder / "bad.yaml", with_unknown_module());
-  const ::rigc::test::Surroundings here{folder, {}};
+  const rigc::test::Surroundings here{folder, {}};
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"build", "lever.yaml", "-o", "lever.glb", "--json"},
         {"check", "lever.yaml", "--json"},
@@ -144,26 +144,26 @@ TEST_CASE("cli: --json prints one JSON document and nothing else") {
         {"modules", "control", "--json"},
         {"schema", "template", "--json"}}) {
     INFO(arguments.front());
-    const Outcome outcome = rigc(arguments, here);
+    const Outcome outcome = run_rigc(arguments, here);
     INFO(outcome.err);
     CHECK(outcome.status == 0);
-    CHECK(::rigc::test::is_json(outcome.out));
+    CHECK(rigc::test::is_json(outcome.out));
   }
-  const Outcome bad = rigc({"check", "bad.yaml", "lever.yaml", "--json"}, here);
+  const Outcome bad = run_rigc({"check", "bad.yaml", "lever.yaml", "--json"}, here);
   CHECK(bad.status == 1);
-  CHECK(::rigc::test::is_json(bad.out));
-  CHECK(::rigc::test::json_at(bad.out, "/0/ok") == "false");
-  CHECK(::rigc::test::json_at(bad.out, "/1/ok") == "true");
+  CHECK(rigc::test::is_json(bad.out));
+  CHECK(rigc::test::json_at(bad.out, "/0/ok") == "false");
+  CHECK(rigc::test::json_at(bad.out, "/1/ok") == "true");
 }
 
 TEST_CASE("cli: inspect and query have the blueprint's form") {
-  const fs::path folder = ::rigc::test::fresh_folder("inspect");
+  const fs::path folder = rigc::test::fresh_folder("inspect");
   write(folder / "lever.yaml", kTemplate);
-  const ::rigc::test::Surroundings here{folder, {}};
-  REQUIRE(rigc({"build", "lever.yaml", "-o", "lever.glb"}, here).status == 0);
-  const std::string inspected = rigc({"inspect", "lever.glb", "--json"}, here).out;
-  using ::rigc::test::json_at;
-  using ::rigc::test::json_keys;
+  const rigc::test::Surroundings here{folder, {}};
+  REQUIRE(run_rigc({"build", "lever.yaml", "-o", "lever.glb"}, here).status == 0);
+  const std::string inspected = run_rigc({"inspect", "lever.glb", "--json"}, here).out;
+  using rigc::test::json_at;
+  using rigc::test::json_keys;
   CHECK(json_keys(inspected, "") == "clips rigs ");
   CHECK(json_keys(inspected, "/rigs/0") ==
         "commands controls features global groups id joints orphans template ");
@@ -176,28 +176,29 @@ TEST_CASE("cli: inspect and query have the blueprint's form") {
   CHECK(json_at(inspected, "/rigs/0/joints/1/label") == "\"tip\"");
   CHECK(json_at(inspected, "/rigs/0/controls/0/module") == "\"control\"");
 
-  const std::string found = rigc({"query", "lever.glb", "lever.base/control", "--json"}, here).out;
+  const std::string found =
+      run_rigc({"query", "lever.glb", "lever.base/control", "--json"}, here).out;
   CHECK(json_keys(found, "/0") == "kind label local name node ");
   CHECK(json_at(found, "/0/kind") == "\"control\"");
   CHECK(json_at(found, "/0/node") == json_at(inspected, "/rigs/0/controls/0/node"));
 }
 
 TEST_CASE("cli: the same template gives the same bytes wherever and however it is built") {
-  const fs::path folder = ::rigc::test::fresh_folder("same");
+  const fs::path folder = rigc::test::fresh_folder("same");
   // A copy elsewhere, reached by other paths, in other surroundings.
   fs::create_directories(folder / "elsewhere/deep");
   fs::copy(biped().parent_path(), folder / "elsewhere/templates", fs::copy_options::recursive);
   const std::string reference = (folder / "biped.glb").string();
-  const Outcome first = rigc({"build", biped().string(), "-o", reference});
+  const Outcome first = run_rigc({"build", biped().string(), "-o", reference});
   INFO(first.err);
   REQUIRE(first.status == 0);
-  const std::string bytes = ::rigc::test::file_text(reference);
+  const std::string bytes = rigc::test::file_text(reference);
   REQUIRE(bytes.size() > 1000);
 
   struct Variant {
     const char* what;
     std::string input;
-    ::rigc::test::Surroundings surroundings;
+    rigc::test::Surroundings surroundings;
   };
   const Variant variants[] = {
       {"again", biped().string(), {}},
@@ -211,10 +212,10 @@ TEST_CASE("cli: the same template gives the same bytes wherever and however it i
   for (const Variant& variant : variants) {
     INFO(variant.what);
     const std::string out = (folder / "elsewhere/other.glb").string();
-    const Outcome outcome = rigc({"build", variant.input, "-o", out}, variant.surroundings);
+    const Outcome outcome = run_rigc({"build", variant.input, "-o", out}, variant.surroundings);
     INFO(outcome.err);
     REQUIRE(outcome.status == 0);
-    CHECK(::rigc::test::file_text(out) == bytes);
+    CHECK(rigc::test::file_text(out) == bytes);
     fs::remove(out);
   }
 }

@@ -52,7 +52,7 @@ int wait_for(pid_t child) {
 
 }  // namespace
 
-Outcome rigc(const std::vector<std::string>& arguments, const Surroundings& surroundings) {
+Outcome run_rigc(const std::vector<std::string>& arguments, const Surroundings& surroundings) {
   const char* binary = std::getenv("RIGC_BINARY");
   if (binary == nullptr) throw std::runtime_error("RIGC_BINARY is not set; run the tests by ctest");
   static int runs = 0;

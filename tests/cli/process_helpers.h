@@ -22,7 +22,7 @@ struct Surroundings {
 };
 
 /// Runs the program of RIGC_BINARY with these arguments and no standard input.
-Outcome rigc(const std::vector<std::string>& arguments, const Surroundings& surroundings = {});
+Outcome run_rigc(const std::vector<std::string>& arguments, const Surroundings& surroundings = {});
 
 /// A diagnostic as it was printed: `line:column RIG0123`, with the file's name and a colon before
 /// it where that is not `main_file`, and `-` instead of a place that is no line.

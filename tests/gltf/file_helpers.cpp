@@ -66,7 +66,7 @@ std::string write_output(const Output& output, const std::string& path,
   for (const std::string& name : output.copies) {
     const fs::path target = fs::path(folder) / name;
     fs::create_directories(target.parent_path());
-    if (fs::exists(fs::path(source_folder) / name))
+    if (fs::exists(fs::path(source_folder) / name) && folder != source_folder)
       fs::copy_file(fs::path(source_folder) / name, target, fs::copy_options::overwrite_existing);
   }
   write_bytes(path, whole(output));

@@ -124,11 +124,14 @@ TEST_CASE("gltf patch: without changes every file comes out as it went in") {
     CHECK(output.unchanged);
     CHECK(whole(output) == *file.whole);
 
+    if (!file.root()["nodes"]) continue;
     Patch and_back(file);
     and_back.append("nodes", "{}");
     and_back.truncate("nodes", and_back.count("nodes") - 1);
     and_back.set_root_extension("RIGC_rig", "{}");
     and_back.set_root_extension("RIGC_rig", "");
+    and_back.set_extra(0, "rigc", "1");
+    and_back.set_extra(0, "rigc", "");
     CHECK(whole(finished(and_back, file.binary)) == *file.whole);
   }
 }
@@ -175,7 +178,8 @@ TEST_CASE("gltf patch: what a file had stays at its index and in its bytes") {
       had_pointer |= name.string() == "KHR_animation_pointer";
     if (!had_pointer) back.drop_extension("KHR_animation_pointer");
     const File again = reopened(finished(back, file.binary), copy, folder);
-    if (file.root()["scenes"]) {
+    // An empty `extensions` and a missing scene cannot be told from ours once they are written.
+    if (file.root()["scenes"] && !is_empty_container(file.root()["extensions"].text())) {
       CHECK(again.root().text() == file.root().text());
       CHECK(again.bin == file.bin);
     }

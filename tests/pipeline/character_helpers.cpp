@@ -30,9 +30,11 @@ void put_word(std::string& bytes, std::uint32_t value) {
 }
 
 std::size_t inverse_bind_offset(const ordered_json& json, std::size_t joint) {
-  const auto& accessor = json["accessors"][json["skins"][0]["inverseBindMatrices"].get<std::size_t>()];
+  const auto& accessor =
+      json["accessors"][json["skins"][0]["inverseBindMatrices"].get<std::size_t>()];
   const auto& view = json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
-  return view.value("byteOffset", std::size_t{0}) + accessor.value("byteOffset", std::size_t{0}) + joint * 64;
+  return view.value("byteOffset", std::size_t{0}) + accessor.value("byteOffset", std::size_t{0}) +
+         joint * 64;
 }
 
 math::Affine read_inverse_bind(const Character& c, std::size_t joint) {
@@ -93,7 +95,8 @@ void save_glb(const Character& c, const std::string& path) {
 
 std::string corpus_file(const std::string& name) {
   const char* folder = std::getenv("RIGC_CORPUS");
-  const std::string path = join_path(folder ? folder : std::string(RIGC_SOURCE_DIR) + "/../shared/corpus", name);
+  const std::string path =
+      join_path(folder ? folder : std::string(RIGC_SOURCE_DIR) + "/../shared/corpus", name);
   if (file_exists(path)) return path;
   MESSAGE("corpus file not here, part of the test does not run: " << name);
   return {};
@@ -216,7 +219,8 @@ std::vector<math::Affine> play(const std::string& path, const std::string& clip,
       math::Trs& local = locals[static_cast<std::size_t>(channel.node)];
       anim::sample(channel.curve, channel.path == anim::Path::rotation, seconds, v);
       if (channel.path == anim::Path::translation) local.translation = {v[0], v[1], v[2]};
-      if (channel.path == anim::Path::rotation) local.rotation = math::normalised(math::Quat{v[0], v[1], v[2], v[3]});
+      if (channel.path == anim::Path::rotation)
+        local.rotation = math::normalised(math::Quat{v[0], v[1], v[2], v[3]});
       if (channel.path == anim::Path::scale) local.scale = {v[0], v[1], v[2]};
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For motion tests: characters as plain JSON and bytes, changed copies of them, and a small player of glTF
-// clips that shares no code with rigc's evaluator.
+// For motion tests: characters as plain JSON and bytes, changed copies of them, and a small player
+// of glTF clips that shares no code with rigc's evaluator.
 #pragma once
 
 #include <map>
@@ -29,14 +29,17 @@ math::Affine local_of(const nlohmann::ordered_json& node);
 void set_local(nlohmann::ordered_json& node, const math::Affine& local);
 std::vector<int> parents_of(const nlohmann::ordered_json& json);
 
-/// Turns every joint's own axes by a random rotation; the mesh stays skinned as it was. Clips are removed.
+/// Turns every joint's own axes by a random rotation; the mesh stays skinned as it was. Clips are
+/// removed.
 Character with_random_axes(Character character, unsigned seed);
-/// Puts scale (or a mirror) above the skeleton and takes it out below, so that the figure looks the same. Clips are removed.
+/// Puts scale (or a mirror) above the skeleton and takes it out below, so that the figure looks the
+/// same. Clips are removed.
 Character under_scaled_ancestor(Character character, math::Vec3 scale);
 /// Turns the whole character about Y. Clips are removed.
 Character turned(Character character, double degrees);
 
-/// Worlds of all nodes of a file at a time of a clip, played as glTF says; without a clip as the nodes stand.
+/// Worlds of all nodes of a file at a time of a clip, played as glTF says; without a clip as the
+/// nodes stand.
 std::vector<math::Affine> play(const std::string& path, const std::string& clip, double seconds);
 
 /// The file's first skin: nodes by joint name.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Keys on the controls of the rigged Xbot bake to joints that do what they should, and the same world motion comes
-// out of copies whose bone axes were turned at random, whose ancestors are scaled or mirrored, and which face -Z.
+// Keys on the controls of the rigged Xbot bake to joints that do what they should, and the same
+// world motion comes out of copies whose bone axes were turned at random, whose ancestors are
+// scaled or mirrored, and which face -Z.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -34,14 +35,18 @@ struct Rigged {
     std::vector<NodeId> found;
     for (NodeId id : scene().nodes()) {
       const scene::Node& node = scene()[id];
-      if (node.kind == scene::Kind::control && node.ids.local == local && node.identity.role == role) found.push_back(id);
+      if (node.kind == scene::Kind::control && node.ids.local == local &&
+          node.identity.role == role)
+        found.push_back(id);
     }
     REQUIRE_MESSAGE(!found.empty(), "no control in role " << role << " of group " << local);
     return found;
   }
   NodeId joint_of(NodeId control) const {
     for (NodeId id : scene().nodes()) {
-      if (scene()[id].is_skeleton() && scene()[id].identity.owner == scene()[control].identity.owner) return id;
+      if (scene()[id].is_skeleton() &&
+          scene()[id].identity.owner == scene()[control].identity.owner)
+        return id;
     }
     return {};
   }
@@ -70,16 +75,18 @@ Rigged build_on(const std::string& model, const std::string& name) {
   const std::vector<int> parents = test::parents_of(character.json);
   for (NodeId id : rigged.scene().nodes()) {
     if (rigged.scene()[id].parent.valid() || rigged.gltf_node(id) < 0) continue;
-    for (int at = parents[static_cast<std::size_t>(rigged.gltf_node(id))]; at >= 0; at = parents[static_cast<std::size_t>(at)]) {
-      rigged.space = test::local_of(character.json["nodes"][static_cast<std::size_t>(at)]) * rigged.space;
+    for (int at = parents[static_cast<std::size_t>(rigged.gltf_node(id))]; at >= 0;
+         at = parents[static_cast<std::size_t>(at)]) {
+      rigged.space =
+          test::local_of(character.json["nodes"][static_cast<std::size_t>(at)]) * rigged.space;
     }
     break;
   }
   return rigged;
 }
 
-anim::Channel keys(int node, anim::Path path, std::vector<float> first, const std::vector<float>& second,
-                   const std::string& attribute = {}) {
+anim::Channel keys(int node, anim::Path path, std::vector<float> first,
+                   const std::vector<float>& second, const std::string& attribute = {}) {
   anim::Channel channel;
   channel.node = node;
   channel.path = path;
@@ -105,7 +112,8 @@ anim::Channel turn_by(const Rigged& rigged, NodeId control, math::Quat turn) {
   const math::Mat3 local = math::inverse(zero) * (math::matrix(turn) * zero);
   const math::Quat q = math::quaternion(math::orthonormal(local));
   return keys(rigged.gltf_node(control), anim::Path::rotation, {0, 0, 0, 1},
-              {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z), static_cast<float>(q.w)});
+              {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z),
+               static_cast<float>(q.w)});
 }
 
 anim::Channel switch_to(const Rigged& rigged, const std::string& group, float ik) {
@@ -114,7 +122,8 @@ anim::Channel switch_to(const Rigged& rigged, const std::string& group, float ik
 }
 
 /// Writes a clip of keys into a copy of the rig and bakes it. Gives the baked file.
-std::string bake(const Rigged& rigged, const std::vector<anim::Channel>& channels, const std::string& name) {
+std::string bake_keys(const Rigged& rigged, const std::vector<anim::Channel>& channels,
+                      const std::string& name) {
   Diagnostics diagnostics;
   const auto file = gltf::open(rigged.path, diagnostics);
   REQUIRE(file);
@@ -142,7 +151,9 @@ struct LimbNodes {
 LimbNodes limb_of(const Rigged& rigged, const std::string& group) {
   const auto fk = rigged.controls(group, "fk");
   REQUIRE(fk.size() >= 3);
-  const auto node = [&](std::size_t i) { return static_cast<std::size_t>(rigged.gltf_node(rigged.joint_of(fk[i]))); };
+  const auto node = [&](std::size_t i) {
+    return static_cast<std::size_t>(rigged.gltf_node(rigged.joint_of(fk[i])));
+  };
   return {node(0), node(1), node(2)};
 }
 
@@ -165,8 +176,9 @@ void check_lengths(const Rigged& rigged, const std::vector<Affine>& worlds, doub
     const scene::Node& node = rigged.scene()[id];
     if (!node.is_skeleton() || !node.parent.valid()) continue;
     const double rest = math::length(rigged.world(id).origin - rigged.world(node.parent).origin);
-    const double now = math::length(worlds[static_cast<std::size_t>(rigged.gltf_node(id))].origin -
-                                    worlds[static_cast<std::size_t>(rigged.gltf_node(node.parent))].origin);
+    const double now =
+        math::length(worlds[static_cast<std::size_t>(rigged.gltf_node(id))].origin -
+                     worlds[static_cast<std::size_t>(rigged.gltf_node(node.parent))].origin);
     worst = std::max(worst, std::abs(now - rest));
   }
   CHECK(worst <= 2e-6 * height);
@@ -182,7 +194,8 @@ double height_of(const Rigged& rigged) {
   return high - low;
 }
 
-/// One motion of the whole character, said in world space: `turn` is how the character stands turned.
+/// One motion of the whole character, said in world space: `turn` is how the character stands
+/// turned.
 std::vector<anim::Channel> motion(const Rigged& rigged, const std::function<Vec3(Vec3)>& turn) {
   std::vector<anim::Channel> channels;
   const auto add_ik = [&](const std::string& group, Vec3 direction) {
@@ -202,25 +215,29 @@ std::vector<anim::Channel> motion(const Rigged& rigged, const std::function<Vec3
 
 }  // namespace
 
-TEST_CASE("pipeline motion: IK reaches what it can, is straight where it cannot, and changes no length") {
+TEST_CASE(
+    "pipeline motion: IK reaches what it can, is straight where it cannot, and changes no length") {
   const std::string model = test::corpus_file("mixamo_Xbot_blender/Xbot.glb");
   if (model.empty()) return;
   const Rigged rigged = build_on(model, "motion_ik");
   const double height = height_of(rigged);
-  const Vec3 directions[] = {{0.5, 0.2, 0.4}, {0.2, -0.7, 0.1}, {0.3, 0.6, -0.2}, {0.05, -0.3, 0.3}};
+  const Vec3 directions[] = {
+      {0.5, 0.2, 0.4}, {0.2, -0.7, 0.1}, {0.3, 0.6, -0.2}, {0.05, -0.3, 0.3}};
   for (const std::string group : {"arm_l", "arm_r", "leg_l", "leg_r"}) {
     const LimbRest limb = rest_of(rigged, group);
     const LimbNodes nodes = limb_of(rigged, group);
     const NodeId ik = rigged.controls(group, "ik").front();
     for (const Vec3& direction : directions) {
       const Vec3 reachable = limb.start + direction * limb.length;
-      const auto baked = bake(rigged, {switch_to(rigged, group, 1), move_to(rigged, ik, reachable)}, "motion_reach");
+      const auto baked = bake_keys(
+          rigged, {switch_to(rigged, group, 1), move_to(rigged, ik, reachable)}, "motion_reach");
       const auto worlds = test::play(baked, "test", 1);
       CHECK(math::length(worlds[nodes.end].origin - reachable) <= 1e-5 * limb.length);
       check_lengths(rigged, worlds, height);
 
       const Vec3 far = limb.start + direction * (3 * limb.length);
-      const auto stretched = bake(rigged, {switch_to(rigged, group, 1), move_to(rigged, ik, far)}, "motion_far");
+      const auto stretched =
+          bake_keys(rigged, {switch_to(rigged, group, 1), move_to(rigged, ik, far)}, "motion_far");
       const auto straight = test::play(stretched, "test", 1);
       const Vec3 upper = straight[nodes.middle].origin - straight[nodes.start].origin;
       const Vec3 whole = straight[nodes.end].origin - straight[nodes.start].origin;
@@ -241,31 +258,40 @@ TEST_CASE("pipeline motion: FK swings, the switch and root travel") {
   const math::Quat turn = math::axis_angle({0, 0, 1}, -0.8);
 
   const NodeId fk = rigged.controls("arm_l", "fk").front();
-  const auto swung = test::play(bake(rigged, {switch_to(rigged, "arm_l", 0), turn_by(rigged, fk, turn)}, "motion_swing"), "test", 1);
+  const auto swung = test::play(
+      bake_keys(rigged, {switch_to(rigged, "arm_l", 0), turn_by(rigged, fk, turn)}, "motion_swing"),
+      "test", 1);
   const Vec3 expected = rest.start + math::rotate(turn, rest.end - rest.start);
   CHECK(math::length(swung[arm.end].origin - expected) <= 1e-5 * rest.length);
   check_lengths(rigged, swung, height);
 
   // The FK swing does nothing while the switch stands at IK.
-  const auto held = test::play(bake(rigged, {switch_to(rigged, "arm_l", 1), turn_by(rigged, fk, turn)}, "motion_held"), "test", 1);
+  const auto held = test::play(
+      bake_keys(rigged, {switch_to(rigged, "arm_l", 1), turn_by(rigged, fk, turn)}, "motion_held"),
+      "test", 1);
   CHECK(math::length(held[arm.end].origin - rest.end) <= 1e-5 * rest.length);
 
   NodeId root;
   for (NodeId id : rigged.scene().nodes()) {
-    if (rigged.scene()[id].module == "root" && rigged.scene()[id].identity.role == "world") root = id;
+    if (rigged.scene()[id].module == "root" && rigged.scene()[id].identity.role == "world")
+      root = id;
   }
   REQUIRE(root.valid());
   const Vec3 travel{0.5, 0.1, 2};
   const auto moved = test::play(
-      bake(rigged, {move_to(rigged, root, rigged.world(root).origin + travel)}, "motion_root"), "test", 1);
+      bake_keys(rigged, {move_to(rigged, root, rigged.world(root).origin + travel)}, "motion_root"),
+      "test", 1);
   for (NodeId id : rigged.scene().nodes()) {
-    if (!rigged.scene()[id].is_skeleton() || rigged.rig->skeleton.joints[0].key == rigged.scene()[id].identity.owner) continue;
+    if (!rigged.scene()[id].is_skeleton() ||
+        rigged.rig->skeleton.joints[0].key == rigged.scene()[id].identity.owner)
+      continue;
     const Vec3 now = moved[static_cast<std::size_t>(rigged.gltf_node(id))].origin;
     CHECK(math::length(now - (rigged.world(id).origin + travel)) <= 1e-5 * height);
   }
 }
 
-TEST_CASE("pipeline motion: the same on turned bone axes, scaled and mirrored ancestors, and facing -Z") {
+TEST_CASE(
+    "pipeline motion: the same on turned bone axes, scaled and mirrored ancestors, and facing -Z") {
   const std::string model = test::corpus_file("mixamo_Xbot_blender/Xbot.glb");
   if (model.empty()) return;
   const test::Character original = test::load_glb(model);
@@ -275,7 +301,7 @@ TEST_CASE("pipeline motion: the same on turned bone axes, scaled and mirrored an
 
   const Rigged base = build_on(model, "motion_base");
   const double height = height_of(base);
-  const auto expected = test::play(bake(base, motion(base, same), "motion_base"), "test", 1);
+  const auto expected = test::play(bake_keys(base, motion(base, same), "motion_base"), "test", 1);
   check_lengths(base, expected, height);
 
   struct Copy {
@@ -290,7 +316,8 @@ TEST_CASE("pipeline motion: the same on turned bone axes, scaled and mirrored an
   copies.push_back({"small", test::under_scaled_ancestor(original, {0.01, 0.01, 0.01})});
   copies.push_back({"large", test::under_scaled_ancestor(original, {100, 100, 100})});
   copies.push_back({"mirror", test::under_scaled_ancestor(original, {-1, 1, 1})});
-  copies.push_back({"mirror_axes", test::with_random_axes(test::under_scaled_ancestor(original, {1, 1, -1}), 9)});
+  copies.push_back({"mirror_axes",
+                    test::with_random_axes(test::under_scaled_ancestor(original, {1, 1, -1}), 9)});
   copies.push_back({"back", test::turned(original, 180), true});
   for (const Copy& copy : copies) {
     CAPTURE(copy.name);
@@ -298,7 +325,8 @@ TEST_CASE("pipeline motion: the same on turned bone axes, scaled and mirrored an
     test::save_glb(copy.character, path);
     const Rigged rigged = build_on(path, "motion_" + copy.name);
     const auto worlds = test::play(
-        bake(rigged, motion(rigged, copy.turned ? std::function<Vec3(Vec3)>(half_turn) : same), "motion_" + copy.name),
+        bake_keys(rigged, motion(rigged, copy.turned ? std::function<Vec3(Vec3)>(half_turn) : same),
+                  "motion_" + copy.name),
         "test", 1);
     double worst = 0;
     std::string where;
