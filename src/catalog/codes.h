@@ -50,7 +50,7 @@ inline constexpr Code kBadDefault{
     "A default must be an argument that a command could give: of the type, in the range."};
 inline constexpr Code kDuplicateCreates{
     113, Severity::error, "role is declared twice",
-    "Each role that a module makes stands once under `creates`."};
+    "Each kind of node that a module makes in a role stands once under `creates`."};
 inline constexpr Code kBadReplaces{114, Severity::error, "replacement names no role of the module",
                                    "`replaces` maps roles of an earlier module to roles under "
                                    "`creates`, so that keys move along."};

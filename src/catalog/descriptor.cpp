@@ -108,9 +108,14 @@ void DescriptorReader::read_creates() {
     if (const yaml::Node* per = item.find("per")) {
       made.per = word_of(*per, {"command", "joint"}, "per", diagnostics_);
     }
-    if (!made.role.empty() && has_role(made.role)) {
-      diagnostics_.report(codes::kDuplicateCreates, item.span,
-                          fmt::format("role {} is declared twice", made.role));
+    const auto& creates = descriptor_.creates;
+    const bool twice = std::any_of(creates.begin(), creates.end(), [&](const Creates& other) {
+      return !made.role.empty() && other.role == made.role && other.kind == made.kind;
+    });
+    if (twice) {
+      diagnostics_.report(
+          codes::kDuplicateCreates, item.span,
+          fmt::format("role {} of kind {} is declared twice", made.role, made.kind));
     }
     descriptor_.creates.push_back(std::move(made));
   }

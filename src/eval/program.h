@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A rig compiled to a flat list of instructions over registers, in dependency order of plugs. Evaluates
-// blocks of frames: each register is `width` rows of `lanes` doubles. Test: tests/eval/program_test.cpp
+// A rig compiled to a flat list of instructions over registers, in dependency order of plugs.
+// Evaluates blocks of frames: each register is `width` rows of `lanes` doubles. Test:
+// tests/eval/program_test.cpp
 #pragma once
 
 #include <cstdint>
@@ -9,34 +10,27 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "eval/kernels/call.h"
 #include "scene/scene.h"
 
 namespace rigc::eval {
 
-/// Frames that a block evaluates at once.
-inline constexpr int kLanes = 8;
-
 /// What a program must give and what varies from frame to frame.
 struct Request {
-  std::vector<scene::Plug> inputs;    ///< animated: whole plugs (translate, rotation, scale, number), never components
-  std::vector<scene::Plug> outputs;   ///< whole plugs or components
+  std::vector<scene::Plug>
+      inputs;  ///< animated: whole plugs (translate, rotation, scale, number), never components
+  std::vector<scene::Plug> outputs;  ///< whole plugs or components
 };
 
-/// A place in the register file: `width` rows from row `row`.
-struct Register {
-  std::uint32_t row = 0;
-  std::uint8_t width = 0;
-};
-
-enum class Op : std::uint8_t;   // kernels/table.h
+enum class Op : std::uint8_t;  // kernels/table.h
 
 struct Instruction {
   Op op;
   Register out;
-  std::uint32_t first_argument = 0;   ///< into Program::arguments
+  std::uint32_t first_argument = 0;  ///< into Program::arguments
   std::uint32_t argument_count = 0;
-  std::uint32_t data = 0;             ///< into Program::data; its meaning is the kernel's
-  std::uint32_t node = 0;             ///< index of the scene node it came from
+  std::uint32_t data = 0;  ///< into Program::data; its meaning is the kernel's
+  std::uint32_t node = 0;  ///< index of the scene node it came from
 };
 
 class Program {
@@ -44,20 +38,26 @@ class Program {
   std::uint32_t rows = 0;
   std::vector<Instruction> instructions;
   std::vector<Register> arguments;
-  std::vector<double> data;           ///< tables of kernels (curves, counts)
-  struct Constant { std::uint32_t row; double value; };
-  std::vector<Constant> constants;    ///< rows that hold one value in every lane and frame
-  std::vector<Register> inputs;       ///< one for each Request::inputs, same order
-  std::vector<Register> outputs;      ///< one for each Request::outputs, same order
+  std::vector<double> data;  ///< tables of kernels (curves, counts)
+  struct Constant {
+    std::uint32_t row;
+    double value;
+  };
+  std::vector<Constant> constants;  ///< rows that hold one value in every lane and frame, and what
+                                    ///< inputs hold until set
+  std::vector<Register> inputs;     ///< one for each Request::inputs, same order
+  std::vector<Register> outputs;    ///< one for each Request::outputs, same order
 
   /// A readable listing, the same for the same scene.
   std::string dump(const scene::Scene& scene) const;
 };
 
 /// Cycles are reported with every plug, command and template line in them.
-std::optional<Program> compile(const scene::Scene& scene, const Request& request, Diagnostics& diagnostics);
+std::optional<Program> compile(const scene::Scene& scene, const Request& request,
+                               Diagnostics& diagnostics);
 
-/// Registers of one thread: set inputs, run, read outputs. Inputs that are never set hold the scene's values.
+/// Registers of one thread: set inputs, run, read outputs. Inputs that are never set hold the
+/// scene's values.
 class Instance {
  public:
   explicit Instance(const Program& program);

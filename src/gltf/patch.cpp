@@ -240,6 +240,11 @@ void Patch::set_extra(int node, std::string_view key, std::string json) {
   set_member("nodes", node, "extras", std::move(changed));
 }
 
+std::string Patch::root_extension(std::string_view name) const {
+  const std::string extensions = state_->member("extensions");
+  return extensions.empty() ? std::string() : member_of(extensions, name);
+}
+
 void Patch::set_root_extension(std::string_view name, std::string json) {
   const std::string extensions = state_->member("extensions");
   const bool removes = json.empty();

@@ -98,6 +98,8 @@ class Patch {
   void set_extra(int node, std::string_view key, std::string json);
   /// Sets or (empty) removes an extension of the root object and its entry in extensionsUsed.
   void set_root_extension(std::string_view name, std::string json);
+  /// Text of an extension of the root object as it is now; empty where there is none.
+  std::string root_extension(std::string_view name) const;
   void use_extension(std::string_view name);
   void drop_extension(std::string_view name);
 

@@ -55,6 +55,7 @@ struct Rig {
   std::vector<CommandRecord> commands;        ///< in the order they ran; Node::command is an index into it
   scene::Scene scene;
   std::vector<int> nodes;                     ///< glTF node of each scene node, -1: none (constraints and other utilities)
+  int ancestor = -1;                          ///< glTF node that the rig's roots are under: the rig's space; -1: the scene
   Owned owned;
 };
 
@@ -81,6 +82,6 @@ struct Standing {
   math::Trs local;               ///< of the node in the file
 };
 /// By scene node; meaningful where the rig has a glTF node.
-std::vector<Standing> standings(const File& file, const Rig& rig);
+std::optional<std::vector<Standing>> standings(const File& file, const Rig& rig, Diagnostics& diagnostics);
 
 }  // namespace rigc::gltf

@@ -91,6 +91,7 @@ std::string to_json(const Rig& rig, const Sources& sources) {
   writer.begin_object().member("id", rig.id);
   write_skeleton(writer, rig.skeleton, places);
   write_settings(writer, rig.settings);
+  if (rig.ancestor >= 0) writer.member("ancestor", rig.ancestor);
   write_versions(writer.key("modules"), rig.modules);
   write_commands(writer, rig, places);
   write_scene(writer, rig, places);
@@ -109,6 +110,7 @@ std::optional<Rig> from_json(const json::Value& object, const std::string& file,
   PlaceReader places(object, reader);
   read_skeleton(object, reader, places, rig.skeleton);
   read_settings(object, reader, rig.settings);
+  reader.get(object, "ancestor", 0, kLargestIndex, rig.ancestor);
   rig.modules = read_versions(object, "modules", reader);
   read_commands(object, reader, places, rig);
   read_owned(object, reader, rig.owned);

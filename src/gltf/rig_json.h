@@ -15,6 +15,7 @@ inline constexpr std::size_t kMostRigs = 1024;
 inline constexpr std::size_t kMostJoints = 65536;
 inline constexpr std::size_t kMostNodes = 262144;
 inline constexpr std::size_t kMostDepth = 1024;
+inline constexpr std::size_t kMostElements = 4096;   ///< of an array attribute
 
 /// One JSON object. Names of files are made relative to the main template's folder, so that the same rig gives the
 /// same text wherever it was built.

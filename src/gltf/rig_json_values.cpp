@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "gltf/rig_codes.h"
+#include "gltf/rig_json.h"
 #include "scene/storage.h"
 
 namespace rigc::gltf {
@@ -20,7 +21,6 @@ using scene::Type;
 using scene::Value;
 
 constexpr std::array<std::string_view, 4> kFlavours = {"number", "integer", "boolean", "angle"};
-constexpr std::size_t kMostElements = 4096;
 constexpr std::size_t kMostUser = 900;   // plugs number them in 16 bits from 1000; nobody needs more
 
 /// Whether an attribute is stored: outputs are computed, and `rotate` is a view of `rotation`.

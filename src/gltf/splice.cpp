@@ -66,8 +66,7 @@ void Splice::replace(std::size_t index, std::string json) {
 }
 
 void Splice::erase(std::size_t index) {
-  // The member that moves up to the first place keeps its own white space: it is the same in every
-  // layout that writers use, and nothing is lost where it is not.
+  if (index == 0 && parts_.size() > 1) parts_[1].lead = parts_[0].lead;
   parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(index));
   if (!keys_.empty()) keys_.erase(keys_.begin() + static_cast<std::ptrdiff_t>(index));
 }

@@ -47,7 +47,7 @@ NodeId Builder::make(const NewNode& request) {
   const std::string base = name ? name->text : scene()[joint].name;
   node.name = base + "_" + (request.suffix.empty() ? request.role : request.suffix);
   if (name && joint == joint_ && node.identity.counter == 0 && request.suffix.empty() &&
-      (request.role == "control" || request.role == "joint" || request.role == "space")) {
+      (request.role == "control" || request.role == "joint" || request.role == "transform")) {
     node.name = base;
   }
   node.command = job_.command_index;
@@ -56,15 +56,38 @@ NodeId Builder::make(const NewNode& request) {
   return edit_.make(std::move(node));
 }
 
-void Builder::connect(const Plug& from, const Plug& to) {
-  if (scene().source(to)) {
-    fail(codes::kAlreadyDriven, {},
-         fmt::format("{} of {} is driven already", scene().plug_name(to),
-                     traversal::describe(scene(), to.node)),
+namespace {
+
+/// Whether values at two plugs of a node override each other: one is the other or a component of
+/// it. The Euler view of a rotation counts as the rotation.
+bool overlap(const scene::Scene& scene, const Plug& a, const Plug& b) {
+  namespace transform = scene::transform;
+  const bool is_transform = scene::spec(scene[a.node].kind).is_transform;
+  const auto is_rotation = [&](const Plug& p) {
+    return p.attribute == transform::kRotation || p.attribute == transform::kRotate;
+  };
+  if (is_transform && is_rotation(a) && is_rotation(b) && a.attribute != b.attribute) return true;
+  if (a.attribute != b.attribute || a.element != b.element) return false;
+  return a.component == b.component || a.component < 0 || b.component < 0;
+}
+
+}  // namespace
+
+bool Builder::check_free(const Plug& plug, std::string_view parameter) {
+  for (const scene::Connection& connection : scene()[plug.node].inputs) {
+    if (!overlap(scene(), connection.to, plug)) continue;
+    fail(codes::kAlreadyDriven, parameter,
+         fmt::format("{} of {} is driven already, by {}", scene().plug_name(connection.to),
+                     traversal::describe(scene(), plug.node),
+                     traversal::describe(scene(), connection.from.node)),
          "switch one of the two commands off, or give one constraint both targets");
-    return;
+    return false;
   }
-  edit_.connect(from, to);
+  return true;
+}
+
+void Builder::connect(const Plug& from, const Plug& to) {
+  if (check_free(to, {})) edit_.connect(from, to);
 }
 
 bool Builder::check_formula(std::string_view parameter, const BoundExpression& bound) {

@@ -60,8 +60,10 @@ class Builder {
   Plug add_attribute(NodeId node, scene::UserAttribute attribute) {
     return edit_.add_attribute(node, std::move(attribute));
   }
-  /// Refuses a plug that is connected already.
+  /// Refuses a plug that is connected already, whole or in part.
   void connect(const Plug& from, const Plug& to);
+  /// Fails where something drives the plug, or a part of it.
+  bool check_free(const Plug& plug, std::string_view parameter);
   void reparent(NodeId node, NodeId parent) { edit_.reparent(node, parent); }
 
   /// Checks the grammar of a formula; false where it is wrong (reported at the parameter).

@@ -48,14 +48,25 @@ std::string suggest_shape(const Builder& b, const std::string& name) {
   return suggest(name, names);
 }
 
+/// What the control on a mirrored joint shows of a point that the one on the other side shows: its
+/// mirror image. The same function leads back.
+Vec3 mirror_image(const Builder& b, const ControlSpec& spec, Vec3 point) {
+  if (!is_mirrored(b, spec.joint)) return point;
+  if (spec.axes != AxesFrom::character) return -point;
+  const Vec3 left = math::transposed(spec.frame.linear) * b.character().left;
+  return point - left * (2 * math::dot(left, point));
+}
+
 /// Flattened polylines in control space: the number of points, then their coordinates, repeated.
-std::vector<double> placed(const Lines& lines, const ControlSpec& spec) {
+std::vector<double> placed(const Builder& b, const Lines& lines, const ControlSpec& spec) {
   const math::Quat turn = math::between({0, 1, 0}, math::normalised(spec.facing, {0, 1, 0}));
+  Vec3 offset = spec.offset;
+  if (is_mirrored(b, spec.joint)) offset.x = -offset.x;  // expansion had turned it round
   std::vector<double> out;
   for (const auto& line : lines) {
     out.push_back(static_cast<double>(line.size()));
     for (const Vec3& point : line) {
-      const Vec3 p = math::rotate(turn, point) * spec.size + spec.offset;
+      const Vec3 p = mirror_image(b, spec, math::rotate(turn, point) * spec.size + offset);
       out.insert(out.end(), {p.x, p.y, p.z});
     }
   }
@@ -114,6 +125,20 @@ NodeId single_driver(const scene::Scene& scene, NodeId joint) {
 }
 
 }  // namespace
+
+bool check_place(Builder& b, NodeId node, std::string_view parameter) {
+  if (scene::spec(b.scene()[node].kind).is_transform) return true;
+  b.fail(codes::kNotATransform, parameter,
+         fmt::format("{} has no place in space", traversal::describe(b.scene(), node)),
+         "name a joint, control or transform");
+  return false;
+}
+
+NodeId space_from(Builder& b, std::string_view parameter, NodeId otherwise) {
+  if (!b.with().has(parameter)) return otherwise;
+  const NodeId space = b.with().node(parameter);
+  return check_place(b, space, parameter) ? space : NodeId{};
+}
 
 bool is_driven(const scene::Scene& scene, NodeId node) {
   for (const scene::Connection& connection : scene[node].inputs) {
@@ -194,13 +219,20 @@ ControlNodes make_control(Builder& b, const ControlSpec& spec) {
                          .suffix = spec.role == "control" ? "" : spec.role});
   namespace control = scene::control;
   b.set({made.control, control::kShape}, spec.shape);
-  b.set({made.control, control::kPoints}, placed(*lines, spec));
+  b.set({made.control, control::kPoints}, placed(b, *lines, spec));
   b.set({made.control, control::kColor}, spec.color);
   b.set(
       {made.control, control::kKeyable},
       static_cast<double>((spec.translate ? 1 : 0) + (spec.rotate ? 2 : 0) + (spec.scale ? 4 : 0)));
   set_opposite(b, made.control, spec);
   return made;
+}
+
+void face(const Builder& b, ControlSpec& spec, const std::string& axis, Vec3 bone) {
+  spec.facing = axis == "x" ? Vec3{1, 0, 0} : axis == "z" ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
+  if (axis == "bone") {
+    spec.facing = mirror_image(b, spec, math::transposed(spec.frame.linear) * bone);
+  }
 }
 
 Vec3 side_color(const Builder& b, NodeId joint, std::string_view parameter) {

@@ -34,6 +34,10 @@ math::Mat3 bone_frame(const Builder& b, NodeId joint, math::Vec3 direction);
 math::Affine oriented(const Builder& b, NodeId joint, const std::string& orient);
 AxesFrom axes_from(const std::string& orient);
 bool is_mirrored(const Builder& b, NodeId joint);
+/// An offset along a frame's own axes (`offset:` with `orient:`), so that both sides mirror each
+/// other: on mirrored joints the template's expansion has turned x round, as the axes of the
+/// character need it; axes of the bone or joint are all turned round there.
+math::Vec3 own_offset(const Builder& b, NodeId joint, const std::string& orient, math::Vec3 offset);
 /// forward, backward, left, right, up, down of the character as a unit vector.
 math::Vec3 character_direction(const Builder& b, const std::string& name);
 
@@ -49,6 +53,13 @@ NodeId space_of(const Builder& b, NodeId joint);
 /// `first`.
 std::vector<NodeId> chain_between(Builder& b, NodeId first, NodeId last,
                                   std::string_view parameter);
+/// Whether each joint hangs somewhere below the one before it; fails where one does not.
+bool check_descends(Builder& b, const std::vector<NodeId>& joints, std::string_view parameter);
+/// Whether a node has a place in space; fails where it has none.
+bool check_place(Builder& b, NodeId node, std::string_view parameter);
+/// The node of a parameter that something hangs under or follows, or what stands for it where it
+/// was left out; fails where the node has no place in space.
+NodeId space_from(Builder& b, std::string_view parameter, NodeId otherwise);
 
 // --- making ---
 
@@ -61,7 +72,7 @@ struct ControlSpec {
   double size = 0.1;           ///< rig units
   math::Vec3 color;            ///< sRGB
   math::Vec3 facing{0, 1, 0};  ///< axis of the control that the shape's normal points along
-  math::Vec3 offset;           ///< of the shape, control axes, rig units
+  math::Vec3 offset;           ///< of the shape, control axes, rig units, as the parameter gives it
   AxesFrom axes = AxesFrom::character;
   bool translate = true, rotate = true, scale = false;
   std::string shape_parameter = "shape";  ///< named in messages
@@ -81,8 +92,8 @@ void hang(Builder& b, NodeId node, NodeId space, const math::Affine& frame);
 
 /// Colour parameter, or by side where it was left out: blue left, red right, yellow between.
 math::Vec3 side_color(const Builder& b, NodeId joint, std::string_view parameter);
-/// The axis parameter (x, y, z, bone) as a control-space vector for a control with this frame.
-math::Vec3 facing(const Builder& b, NodeId joint, const math::Mat3& frame, const std::string& axis);
+/// Points the shape of a control along its axis x, y or z, or (bone) along a direction in rig space.
+void face(const Builder& b, ControlSpec& spec, const std::string& axis, math::Vec3 bone);
 
 // --- driving ---
 

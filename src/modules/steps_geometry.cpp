@@ -97,6 +97,11 @@ Mat3 bone_frame(const Builder& b, NodeId joint, Vec3 direction) {
   return math::frame(direction * sign, second * sign);
 }
 
+Vec3 own_offset(const Builder& b, NodeId joint, const std::string& orient, Vec3 offset) {
+  if (!is_mirrored(b, joint) || axes_from(orient) == AxesFrom::character) return offset;
+  return {offset.x, -offset.y, -offset.z};
+}
+
 AxesFrom axes_from(const std::string& orient) {
   if (orient == "bone") return AxesFrom::bone;
   return orient == "joint" ? AxesFrom::joint : AxesFrom::character;
@@ -126,11 +131,18 @@ std::vector<NodeId> chain_between(Builder& b, NodeId first, NodeId last,
   return {};
 }
 
-Vec3 facing(const Builder& b, NodeId joint, const Mat3& frame, const std::string& axis) {
-  if (axis == "x") return {1, 0, 0};
-  if (axis == "z") return {0, 0, 1};
-  if (axis == "bone") return math::transposed(frame) * bone_direction(b, joint);
-  return {0, 1, 0};
+bool check_descends(Builder& b, const std::vector<NodeId>& joints, std::string_view parameter) {
+  for (std::size_t i = 1; i < joints.size(); ++i) {
+    NodeId above = b.scene()[joints[i]].parent;
+    while (above.valid() && above != joints[i - 1]) above = b.scene()[above].parent;
+    if (above.valid()) continue;
+    b.fail(codes::kNotAChain, parameter,
+           fmt::format("{} does not hang below {}", traversal::describe(b.scene(), joints[i]),
+                       traversal::describe(b.scene(), joints[i - 1])),
+           "name the joints from first to last");
+    return false;
+  }
+  return true;
 }
 
 }  // namespace rigc::modules

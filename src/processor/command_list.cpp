@@ -17,6 +17,14 @@ bool is_on(const tags::TaggedJoint& joint, const tags::CommandTag& tag) {
   return tag.on && (tag.feature < 0 || joint.features[static_cast<std::size_t>(tag.feature)].on);
 }
 
+/// The constructor of a module: its own, or that of the module that its descriptor names.
+const modules::Module* implementation(const tags::CommandTag& tag,
+                                      const catalog::Descriptor* descriptor) {
+  if (!descriptor) return nullptr;
+  const bool own = descriptor->implementation == "builtin";
+  return modules::find(own ? tag.module : descriptor->implementation);
+}
+
 }  // namespace
 
 std::optional<CommandList> list(const tags::TaggedSkeleton& skeleton,
@@ -28,8 +36,8 @@ std::optional<CommandList> list(const tags::TaggedSkeleton& skeleton,
     for (std::size_t t = 0; t < joint.commands.size(); ++t) {
       const tags::CommandTag& tag = joint.commands[t];
       if (!is_on(joint, tag)) continue;
-      Command command{j, t, catalog::Stage::build, catalogue.find(tag.module),
-                      modules::find(tag.module)};
+      const catalog::Descriptor* descriptor = catalogue.find(tag.module);
+      Command command{j, t, catalog::Stage::build, descriptor, implementation(tag, descriptor)};
       if (!command.descriptor || !command.module) {
         diagnostics.report(
             codes::kNotBuiltIn, tag.span,

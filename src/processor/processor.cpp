@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "processor/codes.h"
+#include "processor/forecast.h"
 #include "selector/selector.h"
 
 namespace rigc::processor {
@@ -58,34 +59,12 @@ traversal::Context Processor::context(std::size_t command) const {
   return {*scene_, index_, skeleton_.global, index_.joint(joint.key), {}};
 }
 
-std::string Processor::forecast(std::size_t command, const selector::Choice& choice,
-                                const Sources* sources) const {
-  if (!choice.made) return {};
-  for (std::size_t later = command + 1; later < commands_.commands.size(); ++later) {
-    const Command& candidate = commands_.commands[later];
-    const tags::CommandTag& tag = tag_of(skeleton_, candidate);
-    const tags::TaggedJoint& joint = skeleton_.joints[candidate.joint];
-    if (tag.module != choice.made->module && choice.made->module != "*") continue;
-    if (!choice.made->id.empty() && choice.made->id != tag.id) continue;
-    if (choice.scope == selector::Scope::group && choice.local != joint.ids.local) continue;
-    const bool here = candidate.joint == commands_.commands[command].joint;
-    if (choice.scope == selector::Scope::self && !here) continue;
-    return fmt::format(
-        "made by \"{}\" on joint \"{}\", which runs later, {}:{}; give that command an earlier "
-        "stage "
-        "or this one a later",
-        tag.id, printable(joint.name), sources ? std::string(sources->name(tag.span.file)) : "",
-        tag.span.line);
-  }
-  return {};
-}
-
 bool Processor::construct(std::size_t at, scene::Edit& edit, Diagnostics& diagnostics) {
   const Command& command = commands_.commands[at];
   const tags::CommandTag& tag = tag_of(skeleton_, command);
   traversal::Context where = context(at);
   where.forecast = [&](const selector::Choice& choice) {
-    return forecast(at, choice, &diagnostics.sources());
+    return forecast(skeleton_, commands_, at, choice, where, diagnostics.sources());
   };
   int pinned = 0;
   for (const auto& [module, version] : skeleton_.module_pins) {

@@ -52,8 +52,6 @@ class Processor {
   void make_joints();
   bool construct(std::size_t command, scene::Edit& edit, Diagnostics& diagnostics);
   traversal::Context context(std::size_t command) const;
-  std::string forecast(std::size_t command, const selector::Choice& choice,
-                       const Sources* sources) const;
 
   const tags::TaggedSkeleton& skeleton_;
   const CommandList& commands_;

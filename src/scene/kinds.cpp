@@ -12,39 +12,39 @@ namespace {
 constexpr bool kArray = true, kSingle = false, kKeyable = true, kFixed = false;
 constexpr auto kIn = Role::input, kOut = Role::output, kData = Role::data;
 
-#define RIGC_TRANSFORM_ATTRIBUTES                                                                    \
-  {"translate", Type::vec3, kIn, kSingle, kKeyable, 0, "Position in the parent's space."},           \
-      {"rotation", Type::quat, kIn, kSingle, kKeyable, 0, "Rotation in the parent's space."},        \
-      {"scale", Type::vec3, kIn, kSingle, kKeyable, 1, "Scale along the own axes."},                 \
-      {"rotate", Type::vec3, kIn, kSingle, kKeyable, 0, "The rotation as angles, X then Y then Z."}, \
-      {"visible",                                                                                    \
-       Type::number,                                                                                 \
-       kIn,                                                                                          \
-       kSingle,                                                                                      \
-       kKeyable,                                                                                     \
-       1,                                                                                            \
-       "0 hides the node and what is under it."},                                                    \
-      {"world", Type::matrix, kOut, kSingle, kFixed, 0, "Transform in the rig's space."}, {          \
-    "parent", Type::matrix, kOut, kSingle, kFixed, 0, "The parent's world."                          \
-  }
+constexpr auto kTransform = std::to_array<AttributeSpec>({
+    {"translate", Type::vec3, kIn, kSingle, kKeyable, 0, "Position in the parent's space."},
+    {"rotation", Type::quat, kIn, kSingle, kKeyable, 0, "Rotation in the parent's space."},
+    {"scale", Type::vec3, kIn, kSingle, kKeyable, 1, "Scale along the own axes."},
+    {"rotate", Type::vec3, kIn, kSingle, kKeyable, 0, "The rotation as angles, X then Y then Z."},
+    {"visible", Type::number, kIn, kSingle, kKeyable, 1, "0 hides the node and what is under it."},
+    {"world", Type::matrix, kOut, kSingle, kFixed, 0, "Transform in the rig's space."},
+    {"parent", Type::matrix, kOut, kSingle, kFixed, 0, "The parent's world."},
+});
 
-constexpr AttributeSpec kTransform[] = {RIGC_TRANSFORM_ATTRIBUTES};
+template <std::size_t n, std::size_t m>
+constexpr std::array<AttributeSpec, n + m> joined(const std::array<AttributeSpec, n>& first,
+                                                  const std::array<AttributeSpec, m>& second) {
+  std::array<AttributeSpec, n + m> all{};
+  for (std::size_t i = 0; i < n; ++i) all[i] = first[i];
+  for (std::size_t i = 0; i < m; ++i) all[n + i] = second[i];
+  return all;
+}
 
-constexpr AttributeSpec kControl[] = {
-    RIGC_TRANSFORM_ATTRIBUTES,
-    {"shape", Type::text, kData, kSingle, kFixed, 0, "Name of the shape."},
-    {"points", Type::numbers, kData, kSingle, kFixed, 0,
-     "Polylines: a count, then its points, repeated."},
-    {"color", Type::vec3, kData, kSingle, kFixed, 1, "Colour of the shape, sRGB 0 to 1."},
-    {"keyable", Type::number, kData, kSingle, kFixed, 7,
-     "What animators key: 1 translate, 2 rotate, 4 scale, added up."},
-    {"opposite", Type::text, kData, kSingle, kFixed, 0,
-     "Identity of the control on the other side."},
-    {"mirror", Type::numbers, kData, kSingle, kFixed, 0,
-     "signs with which translations are copied to the opposite"},
-};
+constexpr auto kControl = joined(
+    kTransform,
+    std::to_array<AttributeSpec>({
+        {"shape", Type::text, kData, kSingle, kFixed, 0, "Name of the shape."},
+        {"points", Type::numbers, kData, kSingle, kFixed, 0,
+         "Polylines: a count, then its points, repeated."},
+        {"color", Type::vec3, kData, kSingle, kFixed, 1, "Colour of the shape, sRGB 0 to 1."},
+        {"keyable", Type::number, kData, kSingle, kFixed, 7,
+         "What animators key: 1 translate, 2 rotate, 4 scale, added up."},
+        {"opposite", Type::text, kData, kSingle, kFixed, 0,
+         "Identity of the control on the other side."},
+    }));
 
-constexpr AttributeSpec kConstraint[] = {
+constexpr auto kConstraint = std::to_array<AttributeSpec>({
     {"parent", Type::matrix, kIn, kSingle, kFixed, 0, "Parent space of the driven transform."},
     {"targets", Type::matrix, kIn, kArray, kFixed, 0, "Worlds of the targets."},
     {"weights", Type::number, kIn, kArray, kFixed, 1,
@@ -55,9 +55,9 @@ constexpr AttributeSpec kConstraint[] = {
     {"rotation", Type::quat, kOut, kSingle, kFixed, 0, "Rotation in the parent's space."},
     {"scale", Type::vec3, kOut, kSingle, kFixed, 1, "Scale relative to the parent."},
     {"rotate", Type::vec3, kOut, kSingle, kFixed, 0, "The rotation as angles."},
-};
+});
 
-constexpr AttributeSpec kAim[] = {
+constexpr auto kAim = std::to_array<AttributeSpec>({
     {"parent", Type::matrix, kIn, kSingle, kFixed, 0, "Parent space of the driven transform."},
     {"targets", Type::matrix, kIn, kArray, kFixed, 0, "Worlds of the targets."},
     {"weights", Type::number, kIn, kArray, kFixed, 1,
@@ -71,9 +71,9 @@ constexpr AttributeSpec kAim[] = {
      "Driven rest rotation seen from the aim frame."},
     {"rotation", Type::quat, kOut, kSingle, kFixed, 0, "Rotation in the parent's space."},
     {"rotate", Type::vec3, kOut, kSingle, kFixed, 0, "The rotation as angles."},
-};
+});
 
-constexpr AttributeSpec kIk2[] = {
+constexpr auto kIk2 = std::to_array<AttributeSpec>({
     {"base", Type::matrix, kIn, kSingle, kFixed, 0, "Parent space of the start joint."},
     {"goal", Type::matrix, kIn, kSingle, kFixed, 0, "Where the end joint shall be."},
     {"pole", Type::matrix, kIn, kSingle, kFixed, 0, "What the middle joint points at."},
@@ -91,9 +91,9 @@ constexpr AttributeSpec kIk2[] = {
      "Bend normal in base space where the pole gives none."},
     {"start_world", Type::matrix, kOut, kSingle, kFixed, 0, "Solved world of the start joint."},
     {"middle_world", Type::matrix, kOut, kSingle, kFixed, 0, "Solved world of the middle joint."},
-};
+});
 
-constexpr AttributeSpec kIkChain[] = {
+constexpr auto kIkChain = std::to_array<AttributeSpec>({
     {"base", Type::matrix, kIn, kSingle, kFixed, 0, "Parent space of the first joint."},
     {"goal", Type::matrix, kIn, kSingle, kFixed, 0, "Where the last joint shall be."},
     {"pole", Type::matrix, kIn, kSingle, kFixed, 0, "What the bend points at."},
@@ -107,15 +107,15 @@ constexpr AttributeSpec kIkChain[] = {
      "Last joint's rest position as seen from the goal."},
     {"rotations", Type::quat, kOut, kArray, kFixed, 0,
      "Solved rotations of all joints but the last."},
-};
+});
 
-constexpr AttributeSpec kExpression[] = {
+constexpr auto kExpression = std::to_array<AttributeSpec>({
     {"code", Type::text, kData, kSingle, kFixed, 0, "The formula; $0, $1, ... are the inputs."},
     {"inputs", Type::number, kIn, kArray, kFixed, 0, "What the formula reads."},
     {"output", Type::number, kOut, kSingle, kFixed, 0, "The result."},
-};
+});
 
-constexpr AttributeSpec kRemap[] = {
+constexpr auto kRemap = std::to_array<AttributeSpec>({
     {"input", Type::number, kIn, kSingle, kFixed, 0, "What is mapped."},
     {"input_min", Type::number, kIn, kSingle, kFixed, 0, "Input at the curve's start."},
     {"input_max", Type::number, kIn, kSingle, kFixed, 1, "Input at the curve's end."},
@@ -125,13 +125,13 @@ constexpr AttributeSpec kRemap[] = {
      "Position, value, interpolation of each point of the curve."},
     {"clamp", Type::number, kData, kSingle, kFixed, 1, "1 holds the ends, 0 extends them in line."},
     {"output", Type::number, kOut, kSingle, kFixed, 0, "The result."},
-};
+});
 
-constexpr AttributeSpec kMesh[] = {
+constexpr auto kMesh = std::to_array<AttributeSpec>({
     {"joints", Type::matrix, kIn, kArray, kFixed, 0, "Worlds of the joints."},
     {"parts", Type::numbers, kData, kSingle, kFixed, 0,
      "Style, ends, side, sizes and colour of each part."},
-};
+});
 
 constexpr std::array<KindSpec, static_cast<std::size_t>(Kind::count)> kKinds = {{
     {Kind::joint, "joint", true, kTransform},
@@ -164,7 +164,7 @@ struct At {
   std::string_view name;
 };
 template <std::size_t n, std::size_t m>
-constexpr bool matches(const AttributeSpec (&table)[n], const At (&indices)[m]) {
+constexpr bool matches(const std::array<AttributeSpec, n>& table, const At (&indices)[m]) {
   for (const At& at : indices) {
     if (at.index >= n || table[at.index].name != at.name) return false;
   }
@@ -180,12 +180,9 @@ static_assert(std::size(kTransform) == transform::kCount &&
               std::size(kTransformAt) == transform::kCount);
 static_assert(matches(kTransform, kTransformAt) && matches(kControl, kTransformAt));
 
-constexpr At kControlAt[] = {{control::kShape, "shape"},
-                             {control::kPoints, "points"},
-                             {control::kColor, "color"},
-                             {control::kKeyable, "keyable"},
-                             {control::kOpposite, "opposite"},
-                             {control::kMirror, "mirror"}};
+constexpr At kControlAt[] = {{control::kShape, "shape"},       {control::kPoints, "points"},
+                             {control::kColor, "color"},       {control::kKeyable, "keyable"},
+                             {control::kOpposite, "opposite"}, {control::kMirror, "mirror"}};
 static_assert(std::size(kControl) == transform::kCount + std::size(kControlAt) &&
               matches(kControl, kControlAt));
 

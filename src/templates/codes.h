@@ -130,8 +130,6 @@ inline constexpr Code kHierarchyDiffers{347, Severity::warning, "bones hang diff
 inline constexpr Code kSheared{348, Severity::warning, "rest pose is sheared",
     "Scales that differ by axis above a turned joint shear it. A joint's rest has no shear; what is left out is "
     "stated."};
-inline constexpr Code kNothingToMeasure{349, Severity::error, "character cannot be measured",
-    "Up, left and forward come from the matched joints, which all lie in one place or on one line here."};
 inline constexpr Code kBadModel{350, Severity::error, "skeleton is malformed",
     "The skeleton's joints do not form a forest."};
 
@@ -144,6 +142,6 @@ inline constexpr const Code* kTemplatesCodes[] = {
     &kPartCycle, &kTooMuch, &kUnboundGroup, &kNotNeeded, &kUnknownPartParameter, &kJointNameTaken,
     &kUidTwice, &kAmbiguousLabel, &kNoJointsLeft, &kNowhereToAim, &kUpAlongBone, &kUnknownMap, &kNoMapFits,
     &kBadMapEntry, &kMissingBone, &kNotInMap, &kBoneTwice, &kAsymmetric, &kHierarchyDiffers, &kSheared,
-    &kNothingToMeasure, &kBadModel};
+    &kBadModel};
 
 }  // namespace rigc::templates::codes

@@ -26,7 +26,8 @@ struct Map {
   bool humanoid = false;                  ///< names are those of the VRM humanoid table, not of nodes
   std::vector<std::string> prefixes;      ///< cut from bone names; `#` stands for any digits, or none
   std::vector<std::string> suffixes;
-  std::vector<std::string> requires_names;   ///< detection: bones that must be there, as written in the file
+  /// For detection: of each of these lists one bone must be there, prefix and all; `#` as above.
+  std::vector<std::vector<std::string>> required;
   std::vector<MapEntry> entries;
   const MapEntry* find(std::string_view local, std::string_view label) const;
 };
@@ -49,13 +50,16 @@ class BoneNames {
   BoneNames(const Map& map, const tags::ForeignSkeleton& skeleton);
   /// Index into ForeignSkeleton::joints; -1: none. Of several, the first in a skin, else the first.
   int find(std::string_view bone) const;
-  /// The first of the names that is there.
-  int find(const std::vector<std::string>& names) const;
-  /// The names as compared, for suggestions.
+  /// All names without what the map cuts off, sorted: for suggestions.
   std::vector<std::string> names() const;
 
  private:
-  std::vector<std::pair<std::string, int>> sorted_;
+  struct Bone {
+    std::string folded;   ///< as compared
+    std::string name;
+    int joint;
+  };
+  std::vector<Bone> sorted_;
 };
 
 }  // namespace rigc::templates

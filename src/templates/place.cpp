@@ -5,6 +5,9 @@
 // Test: tests/templates/place_test.cpp
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "templates/chain.h"
 #include "templates/codes.h"
 #include "templates/expand.h"
 
@@ -211,26 +214,9 @@ math::Trs Placer::across(const math::Trs& rest, int instance) const {
 
 void Placer::add(std::size_t index, std::uint32_t ordinal, int parent, const math::Trs& rest,
                  const Affine& main) {
-  tags::TaggedJoint joint;
-  const tags::TaggedJoint& source = expanded_.joints[index].tagged;
-  if (ordinal == 0) {
-    joint = source;
-  } else {
-    joint.key = source.key;
-    joint.was = source.was;
-    joint.ids.global = source.ids.global;
-    joint.ids.local = source.ids.local;
-    joint.optional = source.optional;
-    joint.mirror = source.mirror;
-    joint.template_index = source.template_index;
-    joint.span = source.span;
-  }
-  joint.key.ordinal = ordinal;
-  for (JointKey& key : joint.was) key.ordinal = ordinal;
-  if (joint.mirror.opposite.uid != 0) joint.mirror.opposite.ordinal = ordinal;
-  if (expanded_.joints[index].chain) joint.name = fmt::format("{}_{}", source.name, ordinal + 1);
+  tags::TaggedJoint joint = joint_of(expanded_.joints[index], ordinal);
   joint.parent = parent;
-  joint.rest = rest;
+  joint.rest = tidy(rest);
   lowest_ = out_.joints.empty() ? main.origin.y : std::min(lowest_, main.origin.y);
   highest_ = out_.joints.empty() ? main.origin.y : std::max(highest_, main.origin.y);
   out_.joints.push_back(std::move(joint));

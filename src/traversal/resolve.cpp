@@ -119,10 +119,10 @@ class Resolver {
 
   /// What the scope names: joints as a rule, all nodes of a group where a kind asks for them.
   std::vector<NodeId> scope(const Choice& choice, const std::string& global, Answer& answer) {
-    if (choice.scope == Scope::self) return {context_.self};
+    if (choice.scope == Scope::self) return of_kind(choice, {context_.self});
     if (choice.scope == Scope::parent) {
       const NodeId parent = node(context_.self).parent;
-      if (parent.valid()) return {parent};
+      if (parent.valid()) return of_kind(choice, {parent});
       answer.why = "this joint has no parent";
       return {};
     }
@@ -136,7 +136,19 @@ class Resolver {
       if (!hint.empty()) answer.why += "; " + hint;
     }
     pick(choice.indices, fmt::format("group \"{}\"", choice.local), answer);
-    return std::exchange(answer.nodes, {});
+    std::vector<NodeId> found = std::exchange(answer.nodes, {});
+    return whole_group ? found : of_kind(choice, std::move(found));
+  }
+
+  /// Where a kind other than joints is asked for without a module: what belongs to the joints.
+  std::vector<NodeId> of_kind(const Choice& choice, std::vector<NodeId> joints) const {
+    if (choice.made || choice.kind.empty() || choice.kind == "joint") return joints;
+    std::vector<NodeId> nodes;
+    for (NodeId joint : joints) {
+      const auto& made = context_.index.made_for(node(joint).identity.owner);
+      nodes.insert(nodes.end(), made.begin(), made.end());
+    }
+    return nodes;
   }
 
   std::vector<NodeId> labelled(const Choice& choice, const std::string& global, Answer& answer) {
@@ -160,6 +172,7 @@ class Resolver {
   }
 
   std::string why_no_label(const Choice& choice, const std::string& global) const {
+    if (const std::string later = forecast(choice); !later.empty()) return later;
     if (context_.index.group(global, choice.local).empty()) {
       const std::string hint = suggest(choice.local, context_.index.groups(global));
       return fmt::format("there is no local group \"{}\"{}{}", printable(choice.local),
@@ -194,10 +207,7 @@ class Resolver {
   }
 
   std::string why_not_made(const Choice& choice, const std::vector<NodeId>& joints) const {
-    if (context_.forecast) {
-      std::string later = context_.forecast(choice);
-      if (!later.empty()) return later;
-    }
+    if (const std::string later = forecast(choice); !later.empty()) return later;
     std::vector<std::string> modules;
     for (NodeId joint : joints) {
       for (NodeId id : context_.index.made_for(node(joint).identity.owner)) {
@@ -211,6 +221,10 @@ class Resolver {
     if (modules.empty()) return "nothing has been made there yet";
     if (modules.size() > kCandidatesShown) modules.resize(kCandidatesShown);
     return "what has been made there: " + join(modules, ", ");
+  }
+
+  std::string forecast(const Choice& choice) const {
+    return context_.forecast ? context_.forecast(choice) : std::string();
   }
 
   void filter_kind(const Choice& choice, Answer& answer) const {

@@ -173,8 +173,9 @@ TEST_CASE("catalog descriptor: makers of nodes cannot declare what they take any
 
 TEST_CASE("catalog descriptor: creates, replaces and changes are checked") {
   const std::string made = "creates:\n  - {role: fk, kind: control, help: H.}\n";
-  bad(kHead + made + "  - {role: fk, kind: transform, help: H.}\n",
-      catalog::codes::kDuplicateCreates, "transform");
+  bad(kHead + made + "  - {role: fk, kind: control, help: Again.}\n",
+      catalog::codes::kDuplicateCreates, "Again");
+  CHECK(good(kHead + made + "  - {role: fk, kind: transform, help: H.}\n").creates.size() == 2);
   bad(kHead + "creates: [{role: fk, kind: control}]\n", catalog::codes::kMissingKey, "creates");
   bad(kHead + "creates: [{role: fk, kind: control, per: rig, help: H.}]\n",
       catalog::codes::kUnknownWord, "per");

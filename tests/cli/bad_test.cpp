@@ -157,9 +157,10 @@ TEST_CASE("cli bad: every diagnostic code has a bad input or a test that provoke
         (text.find(code) != std::string::npos || text.find(declared->second) != std::string::npos));
     provoked.insert(code);
   }
-  for (const auto& [code, name] : codes) {
-    INFO(code << " (" << name << ") has no folder in tests/bad and no line in tests/bad/README.md");
-    CHECK(provoked.count(code) == 1);
+  for (const auto& entry : codes) {
+    INFO(entry.first << " (" << entry.second
+                     << ") has no folder in tests/bad and no line in tests/bad/README.md");
+    CHECK(provoked.count(entry.first) == 1);
   }
 }
 
@@ -167,9 +168,10 @@ TEST_CASE("cli bad: the reference of diagnostics has every declared code and no 
   const std::set<std::string> documented =
       codes_in(rigc::test::file_text(rigc::test::source_folder() / "docs/diagnostics.md"));
   const std::map<std::string, std::string> codes = declared_codes();
-  for (const auto& [code, name] : codes) {
-    INFO(code << " (" << name << ") is not in docs/diagnostics.md: is it in its folder's table?");
-    CHECK(documented.count(code) == 1);
+  for (const auto& entry : codes) {
+    INFO(entry.first << " (" << entry.second
+                     << ") is not in docs/diagnostics.md: is it in its folder's table?");
+    CHECK(documented.count(entry.first) == 1);
   }
   for (const std::string& code : documented) {
     INFO(code << " is in docs/diagnostics.md only");

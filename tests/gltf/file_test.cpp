@@ -172,7 +172,8 @@ TEST_CASE("gltf file: every mistake has its code and its place") {
 TEST_CASE("gltf file: all mistakes are reported in one run") {
   std::string text = small_model();
   std::set<int> expected;
-  for (const char* name : {"mesh", "zero rotation", "joint twice", "path", "stride", "count huge"})
+  for (const char* name :
+       {"mesh", "zero rotation", "joint twice", "path", "view range", "count huge"})
     for (const Bad& bad : kBad)
       if (std::string_view(bad.name) == name && text.find(bad.from) != std::string::npos) {
         text = replaced(text, bad.from, bad.to);
@@ -267,7 +268,7 @@ TEST_CASE("gltf file: random damage never crashes") {
   const std::string good = small_model();
   const std::string path = make_folder("damage") + "/model.gltf";
   std::size_t refused = 0;
-  for (int round = 0; round < 3000; ++round) {
+  for (int round = 0; round < 1000; ++round) {
     std::string text = good.substr(0, good.find("data:"));
     text += good.substr(good.find("\"}]\n}"));
     for (std::uint64_t n = random() % 4 + 1; n > 0; --n) {
@@ -281,5 +282,5 @@ TEST_CASE("gltf file: random damage never crashes") {
     CHECK(file.has_value() == diagnostics.ok());
     refused += !file;
   }
-  CHECK(refused > 1000);
+  CHECK(refused > 300);
 }

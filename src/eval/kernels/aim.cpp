@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The aim constraint: a frame with x at the weighted mean of the targets and y toward up, turned by the
-// offset, in the parent's space. Where the target lies on the node itself it aims along the parent's x.
-// Test: tests/eval/aim_test.cpp
+// The aim constraint: a frame with x at the weighted mean of the targets and y toward up, turned by
+// the offset, in the parent's space. Where the target lies on the node itself it aims along the
+// parent's x. Test: tests/eval/aim_test.cpp
 #include "eval/kernels/space.h"
 #include "eval/kernels/table.h"
 

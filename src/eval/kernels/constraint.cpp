@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Weighted constraints. Each target times its offset is brought into the driven transform's parent space
-// and taken apart there; then positions and scales are averaged by weight and rotations turned toward one
-// after the other by slerp (two targets: slerp by weight). In the parent's space a rest pose comes back
-// exactly, also under parents that are mirrored or scaled unevenly. Test: tests/eval/constraint_test.cpp
+// Weighted constraints. Each target times its offset is brought into the driven transform's parent
+// space and taken apart there; then positions and scales are averaged by weight and rotations
+// turned toward one after the other by slerp (two targets: slerp by weight). In the parent's space
+// a rest pose comes back exactly, also under parents that are mirrored or scaled unevenly. Test:
+// tests/eval/constraint_test.cpp
 #include "eval/kernels/space.h"
 #include "eval/kernels/table.h"
 
@@ -29,7 +30,8 @@ math::Trs blend(const Call& call, std::uint32_t count, int lane) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const double t = weights.add(sum > 0 ? weight_of(call, i, lane) : 1);
     if (t == 0) continue;
-    const math::Affine target = read_affine(call.in(1 + 2 * i), lane) * offset_at(call.data + 1 + 12 * i);
+    const math::Affine target =
+        read_affine(call.in(1 + 2 * i), lane) * offset_at(call.data + 1 + 12 * i);
     const math::Trs placed = math::decompose(to_parent * target);
     if (t == 1) {
       mean = placed;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Steps that solvers share: into a parent's space, weighted means. Test: tests/eval/constraint_test.cpp
+// Steps that solvers share: into a parent's space, weighted means. Test:
+// tests/eval/constraint_test.cpp
 #pragma once
 
 #include "math/math.h"
 
 namespace rigc::eval {
 
-/// From rig space into the space of `parent`; where the parent is flat, into that of its rotation alone.
+/// From rig space into the space of `parent`; where the parent is flat, into that of its rotation
+/// alone.
 math::Affine into(const math::Affine& parent);
 
 /// How far the weights seen so far turn a mean toward the next item: weight / sum, 0 for no weight.

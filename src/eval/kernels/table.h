@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one table of kernels: operation, name, function, number of arguments. Test: tests/eval/kernels_test.cpp
+// The one table of kernels: operation, name, function, number of arguments. Test:
+// tests/eval/kernels_test.cpp
 #pragma once
 
 #include <cstdint>
@@ -11,22 +12,59 @@ namespace rigc::eval {
 
 enum class Op : std::uint8_t {
   // Transforms.
-  compose,      ///< translation, rotation, scale -> T * R * S
-  multiply,     ///< a, b -> a * b
-  gather,       ///< any registers, one after the other
-  from_euler,   ///< degrees -> rotation
-  to_euler,     ///< rotation -> degrees
+  compose,     ///< translation, rotation, scale -> T * R * S
+  multiply,    ///< a, b -> a * b
+  gather,      ///< any registers, one after the other
+  from_euler,  ///< degrees -> rotation
+  to_euler,    ///< rotation -> degrees
   // Solvers; scene/kinds.h says what they mean.
-  constraint,   ///< parent, (target, weight)...; data: count, offsets -> translate, rotation, scale
-  aim,          ///< parent, position, up_target, up_vector, (target, weight)...; data: count, mode, offset -> rotation
-  ik_two_bone,  ///< base ... middle_scale; data: goal offset, rotation offsets, normal -> two worlds
-  ik_chain,     ///< base, goal, pole, twist, translates...; data: count, has_pole, iterations, goal offset, rests -> rotations
+  constraint,  ///< parent, (target, weight)...; data: count, offsets -> translate, rotation, scale
+  aim,  ///< parent, position, up_target, up_vector, (target, weight)...; data: count, mode, offset
+        ///< -> rotation
+  ik_two_bone,  ///< base ... middle_scale; data: goal offset, rotation offsets, normal -> two
+                ///< worlds
+  ik_chain,     ///< base, goal, pole, twist, translates...; data: count, has_pole, iterations, goal
+                ///< offset, rests -> rotations
   remap,        ///< input, its range, output's range; data: clamp, count, points -> number
   // Formulas, in the order of scene::FormulaOp from negate on.
-  negate, logical_not, add, subtract, multiply_numbers, divide, modulo, power,
-  less, less_equal, greater, greater_equal, equal, not_equal, logical_and, logical_or, select,
-  sin, cos, tan, asin, acos, atan, atan2, sqrt, abs, sign, floor, ceil, round, exp, log,
-  min, max, clamp, lerp, smoothstep, hypot,
+  negate,
+  logical_not,
+  add,
+  subtract,
+  multiply_numbers,
+  divide,
+  modulo,
+  power,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  equal,
+  not_equal,
+  logical_and,
+  logical_or,
+  select,
+  sin,
+  cos,
+  tan,
+  asin,
+  acos,
+  atan,
+  atan2,
+  sqrt,
+  abs,
+  sign,
+  floor,
+  ceil,
+  round,
+  exp,
+  log,
+  min,
+  max,
+  clamp,
+  lerp,
+  smoothstep,
+  hypot,
   count
 };
 
@@ -34,7 +72,7 @@ struct KernelRow {
   Op op;
   std::string_view name;
   Kernel kernel;
-  int arguments;          ///< -1: as many as the instruction says
+  int arguments;  ///< -1: as many as the instruction says
 };
 
 const KernelRow& row(Op op);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Kernels of transforms. The two hot ones walk row by row with the lanes innermost, so that compilers turn
-// them into vector code. Test: tests/eval/transforms_test.cpp
+// Kernels of transforms. The two hot ones walk row by row with the lanes innermost, so that
+// compilers turn them into vector code. Test: tests/eval/transforms_test.cpp
 #include <cmath>
 
 #include "eval/kernels/table.h"

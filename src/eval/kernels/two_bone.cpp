@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Analytic two-bone IK by the law of cosines. Out of reach the limb is exactly straight, too near it is
-// folded to the difference of its bones. What each input means is in scene/kinds.h. Test: tests/eval/two_bone_test.cpp
+// Analytic two-bone IK by the law of cosines. Out of reach the limb is exactly straight, too near
+// it is folded to the difference of its bones. What each input means is in scene/kinds.h. Test:
+// tests/eval/two_bone_test.cpp
 #include <cmath>
 
 #include "eval/kernels/table.h"
@@ -12,13 +13,25 @@ namespace {
 using math::Quat;
 using math::Vec3;
 
-// Nearer to straight or folded than this (relative) counts as exactly so: the angle there is the square
-// root of rounding noise.
+// Nearer to straight or folded than this (relative) counts as exactly so: the angle there is the
+// square root of rounding noise.
 constexpr double kSnap = 1e-13;
 // Sine of the angle between goal and pole below which the pole says no plane.
 constexpr double kPoleOnLine = 1e-6;
+// A goal nearer to the start than this, in lengths of the limb, has no direction.
+constexpr double kNowhere = 1e-12;
 
-enum Argument : std::size_t { kBase, kGoal, kPole, kTwist, kStart, kMiddle, kEnd, kStartScale, kMiddleScale };
+enum Argument : std::size_t {
+  kBase,
+  kGoal,
+  kPole,
+  kTwist,
+  kStart,
+  kMiddle,
+  kEnd,
+  kStartScale,
+  kMiddleScale
+};
 
 struct Data {
   Vec3 goal_offset;
@@ -27,20 +40,23 @@ struct Data {
 };
 
 Data read_data(const double* d) {
-  return {{d[0], d[1], d[2]}, {d[3], d[4], d[5], d[6]}, {d[7], d[8], d[9], d[10]}, {d[11], d[12], d[13]}};
+  return {{d[0], d[1], d[2]},
+          {d[3], d[4], d[5], d[6]},
+          {d[7], d[8], d[9], d[10]},
+          {d[11], d[12], d[13]}};
 }
 
 // The plane of the limb: unit vectors at right angles to each other.
 struct Plane {
-  Vec3 direction;   // start to goal
+  Vec3 direction;  // start to goal
   Vec3 normal;
 };
 
 Plane plane_of(const Vec3 to_goal, Vec3 to_pole, Vec3 rest_normal, double reach) {
   const Vec3 pole = math::normalised(to_pole, {});
   Plane plane;
-  if (math::length(to_goal) <= 1e-12 * reach) {
-    // No direction: fold toward the pole, in the rest plane.
+  if (math::length(to_goal) <= kNowhere * reach) {
+    // The limb lies in its rest plane, with the middle toward the pole.
     const math::Mat3 fold = math::frame(rest_normal, pole);
     return {math::cross(fold.y, rest_normal), rest_normal};
   }
@@ -59,12 +75,13 @@ struct Bones {
 Bones bend(const Plane& plane, double a, double b, double distance) {
   const double longest = a + b, shortest = std::fabs(a - b);
   const bool straight = distance >= longest * (1 - kSnap);
-  const bool folded = !straight && distance <= shortest * (1 + kSnap);
+  const bool folded = !straight && shortest > kSnap * longest && distance <= shortest * (1 + kSnap);
   const Vec3 back = a >= b ? plane.direction : -plane.direction;
   if (straight) return {plane.direction, plane.direction};
   if (folded) return {back, -back};
   // The middle's foot on the line, and its height above it.
-  const double foot = distance > 0 ? ((a - b) * (longest / distance) + distance) / 2 : 0;
+  const double foot =
+      distance > kNowhere * longest ? ((a - b) * (longest / distance) + distance) / 2 : 0;
   const double height = math::sqrt((a - foot) * (a + foot));
   const Vec3 side = math::cross(plane.normal, plane.direction);
   const Vec3 middle = plane.direction * foot + side * height;
@@ -72,15 +89,18 @@ Bones bend(const Plane& plane, double a, double b, double distance) {
   return {math::normalised(middle, plane.direction), math::normalised(rest, plane.direction)};
 }
 
-// World of a joint whose child lies along `bone`: x of the bone frame, z the bend normal. `child` is the
-// child's place in the joint's own space: the frame is corrected so that it lands on the bone also when
-// it was moved off the rest direction.
-math::Affine joint_world(Vec3 bone, Vec3 normal, Quat offset, Vec3 child, Vec3 scale, Vec3 origin) {
+// World rotation of a joint whose child lies along `bone`: x of the bone frame, z the bend normal.
+// `child` is the child's place in the joint's rotated space: the frame is corrected so that the
+// child lands on the bone also when it was moved off its rest direction.
+math::Mat3 joint_axes(Vec3 bone, Vec3 normal, Quat offset, Vec3 child) {
   const math::Mat3 axes = math::frame(bone, math::cross(normal, bone));
-  const double mirror = scale.x * scale.y * scale.z < 0 ? -1.0 : 1.0;
-  const Vec3 seen = math::rotate(offset, math::normalised({child.x, child.y, child.z * mirror}, {}));
-  const Quat correction = seen == Vec3{} ? Quat{} : math::between(math::normalised(seen), {1, 0, 0});
-  const math::Mat3 r = axes * math::matrix(correction * offset);
+  const Vec3 seen = math::rotate(offset, math::normalised(child, {}));
+  const Quat correction =
+      seen == Vec3{} ? Quat{} : math::between(math::normalised(seen), {1, 0, 0});
+  return axes * math::matrix(correction * offset);
+}
+
+math::Affine world(const math::Mat3& r, Vec3 scale, Vec3 origin) {
   return {{r.x * scale.x, r.y * scale.y, r.z * scale.z}, origin};
 }
 
@@ -105,13 +125,17 @@ void solve(const Call& call, const Data& data, int lane) {
   plane.normal = math::rotate(twist, plane.normal);
   const Bones bones = bend(plane, a, b, math::length(to_goal));
 
+  // A mirrored base is one whose z is turned over.
+  const Vec3 mirror{1, 1, of_base.scale.z < 0 ? -1.0 : 1.0};
+  const math::Mat3 first =
+      joint_axes(bones.first, plane.normal, data.start_offset, math::scaled(upper, mirror));
+  const math::Mat3 second =
+      joint_axes(bones.second, plane.normal, data.middle_offset, math::scaled(lower, mirror));
   const Vec3 start_total = math::scaled(of_base.scale, start_scale);
   const Vec3 middle_total = math::scaled(start_total, middle_scale);
   const Vec3 middle = start + bones.first * a;
-  write(call.result(), lane,
-        joint_world(bones.first, plane.normal, data.start_offset, upper, start_total, start));
-  write(call.result() + 12 * kLanes, lane,
-        joint_world(bones.second, plane.normal, data.middle_offset, lower, middle_total, middle));
+  write(call.result(), lane, world(first, start_total, start));
+  write(call.result() + 12 * kLanes, lane, world(second, middle_total, middle));
 }
 
 }  // namespace

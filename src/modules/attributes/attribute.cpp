@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "modules/attributes/plugs.h"
 #include "modules/codes.h"
 #include "modules/registry.h"
 #include "modules/steps.h"
@@ -28,14 +29,8 @@ std::optional<double> initial_value(Builder& b, const scene::UserAttribute& attr
   }
   const double value =
       literal.kind == Literal::Kind::boolean ? (literal.flag ? 1.0 : 0.0) : literal.number;
-  const bool whole = value >= -9e15 && value <= 9e15 &&
-                     value == static_cast<double>(static_cast<long long>(value));
-  const bool wants_whole = attribute.flavour == scene::UserAttribute::Flavour::integer;
-  if ((wants_whole && !whole) || (attribute.min && value < *attribute.min) ||
-      (attribute.max && value > *attribute.max)) {
-    b.fail(codes::kValueDoesNotFit, "default",
-           fmt::format("the default {} {}", number_text(value),
-                       wants_whole && !whole ? "is no whole number" : "lies outside min and max"));
+  if (const std::string why = why_unfit(attribute, value); !why.empty()) {
+    b.fail(codes::kValueDoesNotFit, "default", why);
     return std::nullopt;
   }
   return value;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the attribute modules share: may a plug be set or connected into.
+// What the attribute modules share: may a plug be set or connected into, does a
+// number fit.
 // Test: tests/modules/attributes_test.cpp
 #pragma once
 
@@ -12,5 +13,9 @@ bool check_input(Builder& b, const Plug& plug, std::string_view parameter);
 
 /// Fails where the plug does not carry a number.
 bool check_number(Builder& b, const Plug& plug, std::string_view parameter);
+
+/// Why a number cannot be the value of an attribute: not of its type, or outside its range. Empty
+/// where it can.
+std::string why_unfit(const scene::UserAttribute& attribute, double value);
 
 }  // namespace rigc::modules

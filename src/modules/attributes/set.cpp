@@ -28,6 +28,16 @@ std::optional<scene::Value> value_for(scene::Type type, const Literal& literal) 
   }
 }
 
+/// Whether a number lies in the range of the user attribute that it is for; fails where it does not.
+bool check_range(Builder& b, const Plug& plug, const scene::Value& value) {
+  if (plug.attribute < scene::kUserAttributes) return true;
+  const auto& attribute = b.scene()[plug.node].user[plug.attribute - scene::kUserAttributes];
+  const std::string why = why_unfit(attribute, std::get<double>(value));
+  if (why.empty()) return true;
+  b.fail(codes::kValueDoesNotFit, "value", why);
+  return false;
+}
+
 /// `rotate` is the Euler view of `rotation`: what is stored is the rotation.
 void set_rotate(Builder& b, const Plug& plug, const scene::Value& value) {
   const Plug rotation{plug.node, scene::transform::kRotation};
@@ -45,7 +55,7 @@ void set_rotate(Builder& b, const Plug& plug, const scene::Value& value) {
 
 void set(Builder& b) {
   const Plug plug = b.with().plug("plug");
-  if (!check_input(b, plug, "plug")) return;
+  if (!check_input(b, plug, "plug") || !b.check_free(plug, "plug")) return;
   const auto type = b.scene().type(plug);
   const auto value = type ? value_for(*type, b.with().literal("value")) : std::nullopt;
   if (!value) {
@@ -54,6 +64,7 @@ void set(Builder& b) {
                        type ? scene::name_of(*type) : "value"));
     return;
   }
+  if (!check_range(b, plug, *value)) return;
   const bool is_transform = scene::spec(b.scene()[plug.node].kind).is_transform;
   if (is_transform && plug.attribute == scene::transform::kRotate)
     return set_rotate(b, plug, *value);

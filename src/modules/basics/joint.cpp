@@ -11,8 +11,9 @@ void joint(Builder& b) {
   const NodeId parent = with.node("parent");
   const NodeId node = b.make(
       {.kind = scene::Kind::joint, .role = "joint", .joint = {}, .parent = parent, .suffix = ""});
-  math::Affine frame = oriented(b, parent, with.text("orient"));
-  frame.origin = frame.origin + math::orthonormal(rest(b, parent).linear) * with.vec3("offset");
+  const std::string& orient = with.text("orient");
+  math::Affine frame = oriented(b, parent, orient);
+  frame.origin = frame.origin + frame.linear * own_offset(b, parent, orient, with.vec3("offset"));
   const math::Trs local = math::decompose(math::inverse(rest(b, parent)) * frame);
   b.set({node, scene::transform::kTranslate}, local.translation);
   b.set({node, scene::transform::kRotation}, local.rotation);

@@ -12,12 +12,7 @@ namespace rigc::modules {
 void parent(Builder& b) {
   const NodeId node = b.with().node("node");
   const NodeId to = b.with().node("to");
-  for (const auto& [id, name] : {std::pair{node, "node"}, std::pair{to, "to"}}) {
-    if (scene::spec(b.scene()[id].kind).is_transform) continue;
-    b.fail(codes::kNotATransform, name,
-           traversal::describe(b.scene(), id) + " has no place in space");
-    return;
-  }
+  if (!check_place(b, node, "node") || !check_place(b, to, "to")) return;
   if (b.scene()[node].is_skeleton()) {
     b.fail(codes::kNotMadeByCommand, "node",
            traversal::describe(b.scene(), node) + " is a joint of the skeleton",

@@ -8,22 +8,11 @@
 #include "modules/codes.h"
 
 namespace rigc::modules {
-namespace {
-
-bool has_place(Builder& b, NodeId node, std::string_view parameter) {
-  if (scene::spec(b.scene()[node].kind).is_transform) return true;
-  b.fail(codes::kNotATransform, parameter,
-         fmt::format("{} has no place in space", traversal::describe(b.scene(), node)),
-         "name a joint, control or transform");
-  return false;
-}
-
-}  // namespace
 
 std::vector<Target> constraint_targets(Builder& b) {
   std::vector<Target> targets;
   for (NodeId node : b.with().nodes("targets")) {
-    if (has_place(b, node, "targets")) targets.push_back(target(b, node));
+    if (check_place(b, node, "targets")) targets.push_back(target(b, node));
   }
   return targets;
 }
@@ -64,7 +53,7 @@ void connect_weights(Builder& b, NodeId constraint, std::uint16_t attribute,
 
 NodeId driven_node(Builder& b) {
   const NodeId driven = b.with().node("driven");
-  has_place(b, driven, "driven");
+  check_place(b, driven, "driven");
   return driven;
 }
 

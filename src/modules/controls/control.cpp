@@ -12,15 +12,16 @@ void control(Builder& b) {
   spec.joint = b.joint();
   spec.frame = oriented(b, b.joint(), with.text("orient"));
   spec.axes = axes_from(with.text("orient"));
-  spec.space = with.has("parent") ? with.node("parent") : space_of(b, b.joint());
+  spec.space = space_from(b, "parent", space_of(b, b.joint()));
   spec.shape = with.text("shape");
   spec.size = with.number("size");
   spec.color = side_color(b, b.joint(), "color");
-  spec.facing = facing(b, b.joint(), spec.frame.linear, with.text("axis"));
+  face(b, spec, with.text("axis"), bone_direction(b, b.joint()));
   spec.offset = with.vec3("offset");
   spec.translate = with.flag("translate");
   spec.rotate = with.flag("rotate");
   spec.scale = with.flag("scale");
+  if (b.failed()) return;
   const ControlNodes made = make_control(b, spec);
   if (b.failed() || !with.flag("drive")) return;
   drive(b, b.joint(), target(b, made.control), spec.translate);

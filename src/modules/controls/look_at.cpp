@@ -54,12 +54,13 @@ void look_at(Builder& b) {
   spec.joint = b.joint();
   spec.role = "target";
   spec.frame = {character_axes(b), middle + ahead};
-  spec.space = with.has("parent") ? with.node("parent") : root_control(b);
+  spec.space = space_from(b, "parent", root_control(b));
   spec.shape = with.text("target_shape");
   spec.shape_parameter = "target_shape";
   spec.size = with.number("target_size");
   spec.color = with.vec3("target_color");
   spec.facing = {0, 0, 1};
+  if (b.failed()) return;
   const ControlNodes common = make_control(b, spec);
   for (NodeId eye : eyes) {
     if (b.failed()) return;

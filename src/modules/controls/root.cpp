@@ -27,7 +27,7 @@ math::Affine ground_frame(const Builder& b) {
 
 void add_master_scale(Builder& b, NodeId world) {
   scene::UserAttribute scale;
-  scale.name = "scale";
+  scale.name = "master_scale";
   scale.value = scale.initial = 1;
   scale.min = 0.001;
   const Plug plug = b.add_attribute(world, std::move(scale));

@@ -18,12 +18,13 @@ void fk_chain(Builder& b) {
   spec.axes = axes_from(orient);
   spec.size = with.number("size");
   spec.translate = with.flag("translate");
-  spec.space = with.has("parent") ? with.node("parent") : space_of(b, joints.front());
+  spec.space = space_from(b, "parent", space_of(b, joints.front()));
+  if (b.failed() || !check_descends(b, joints, "joints")) return;
   for (NodeId joint : joints) {
     spec.joint = joint;
     spec.frame = oriented(b, joint, orient);
     spec.color = side_color(b, joint, "color");
-    spec.facing = facing(b, joint, spec.frame.linear, with.text("axis"));
+    face(b, spec, with.text("axis"), bone_direction(b, joint));
     const ControlNodes made = make_control(b, spec);
     if (b.failed()) return;
     drive(b, joint, target(b, made.control), spec.translate);

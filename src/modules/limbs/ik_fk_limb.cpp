@@ -35,7 +35,7 @@ ControlSpec look(const Builder& b, NodeId joint, const std::string& part) {
 
 void make_fk(Builder& b, Limb& limb) {
   const Parameters& with = b.with();
-  NodeId space = with.has("parent") ? with.node("parent") : space_of(b, limb.joints[0]);
+  NodeId space = space_from(b, "parent", space_of(b, limb.joints[0]));
   for (std::size_t i = 0; i < 3 && !b.failed(); ++i) {
     const NodeId joint = limb.joints[i];
     ControlSpec spec = look(b, joint, "fk");
@@ -44,7 +44,7 @@ void make_fk(Builder& b, Limb& limb) {
               : bone_direction(b, joint);
     spec.frame = {bone_frame(b, joint, direction), position(b, joint)};
     spec.axes = AxesFrom::bone;
-    spec.facing = {1, 0, 0};
+    face(b, spec, "bone", direction);
     spec.space = space;
     spec.translate = false;
     limb.fk[i] = make_control(b, spec).control;
@@ -54,7 +54,8 @@ void make_fk(Builder& b, Limb& limb) {
 
 void make_ik(Builder& b, Limb& limb) {
   const Parameters& with = b.with();
-  const NodeId space = with.has("ik_parent") ? with.node("ik_parent") : root_control(b);
+  const NodeId space = space_from(b, "ik_parent", root_control(b));
+  if (b.failed()) return;
   ControlSpec spec = look(b, limb.joints[2], "ik");
   spec.frame = oriented(b, limb.joints[2], with.text("ik_orient"));
   spec.axes = axes_from(with.text("ik_orient"));

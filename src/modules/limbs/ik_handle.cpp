@@ -22,8 +22,9 @@ void build_two_bone(Builder& b, const std::vector<NodeId>& chain, NodeId handle)
   }
   const TwoBone limb = measure_two_bone(b, chain[0], chain[1], chain[2], b.with().text("bend"));
   if (b.failed()) return;
-  const NodeId solver =
-      make_two_bone(b, limb, handle, b.with().node("pole"), b.with().number("twist"));
+  const NodeId pole = space_from(b, "pole", {});
+  if (b.failed()) return;
+  const NodeId solver = make_two_bone(b, limb, handle, pole, b.with().number("twist"));
   const std::uint16_t solved[2] = {scene::ik2::kStartWorld, scene::ik2::kMiddleWorld};
   for (std::size_t i = 0; i < 2; ++i) {
     const NodeId turn =
@@ -50,9 +51,10 @@ void build_chain(Builder& b, const std::vector<NodeId>& chain, NodeId handle) {
   b.set({solver, ik::kGoalOffset}, math::inverse(rest(b, handle)) * position(b, chain.back()));
   b.set({solver, ik::kTwist}, b.with().number("twist"));
   b.set({solver, ik::kIterations}, b.with().number("iterations"));
-  if (b.with().has("pole")) {
+  if (const NodeId pole = space_from(b, "pole", {}); pole.valid()) {
     b.set({solver, ik::kHasPole}, 1.0);
-    b.connect(world_of(b.with().node("pole")), {solver, ik::kPole});
+    b.set({solver, ik::kPole}, rest(b, pole));
+    b.connect(world_of(pole), {solver, ik::kPole});
   }
   for (std::size_t i = 0; i < chain.size(); ++i) {
     const auto element = static_cast<std::int32_t>(i);
@@ -70,14 +72,14 @@ void build_chain(Builder& b, const std::vector<NodeId>& chain, NodeId handle) {
 void ik_handle(Builder& b) {
   const Parameters& with = b.with();
   const std::vector<NodeId> chain = chain_between(b, with.node("start"), with.node("end"), "end");
+  const NodeId goal = space_from(b, "goal", root_control(b));
   if (b.failed()) return;
   const NodeId handle = b.make({.kind = scene::Kind::handle,
                                 .role = "handle",
                                 .joint = chain.back(),
                                 .parent = {},
                                 .suffix = ""});
-  hang(b, handle, with.has("goal") ? with.node("goal") : root_control(b),
-       {character_axes(b), position(b, chain.back())});
+  hang(b, handle, goal, {character_axes(b), position(b, chain.back())});
   if (with.text("solver") == "two_bone") {
     build_two_bone(b, chain, handle);
   } else {

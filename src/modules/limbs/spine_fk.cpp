@@ -28,7 +28,8 @@ void spine_fk(Builder& b) {
            fmt::format("a spine needs at least two joints, not {}", joints.size()));
     return;
   }
-  const NodeId space = with.has("parent") ? with.node("parent") : space_of(b, joints.front());
+  const NodeId space = space_from(b, "parent", space_of(b, joints.front()));
+  if (b.failed() || !check_descends(b, joints, "joints")) return;
   ControlSpec spec;
   spec.facing = {0, 1, 0};
   NodeId hips;

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Registers and runs all benchmarks; arguments are Google Benchmark's.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+
+#include "bench/bench.h"
+
+double rigc::bench::least(const std::vector<double>& times) {
+  return *std::min_element(times.begin(), times.end());
+}
+
+int main(int argc, char** argv) {
+  rigc::bench::add_process_benchmarks();
+  rigc::bench::add_stage_benchmarks();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Evaluating a scene without ceremony: one frame of given values, or many frames block by block.
+// Test: tests/eval/evaluate_test.cpp
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "eval/program.h"
+
+namespace rigc::eval {
+
+/// A value that an animator gives an input: translate, rotation, rotate, scale or a user attribute,
+/// whole.
+struct Setting {
+  scene::Plug plug;
+  scene::Value value;
+};
+
+/// Values of plugs in one frame, in their order.
+std::optional<std::vector<scene::Value>> evaluate(const scene::Scene& scene,
+                                                  const std::vector<scene::Plug>& plugs,
+                                                  const std::vector<Setting>& settings,
+                                                  Diagnostics& diagnostics);
+
+/// World matrices of transforms in one frame; empty where the scene cannot be compiled.
+std::vector<math::Affine> worlds(const scene::Scene& scene, const std::vector<scene::NodeId>& nodes,
+                                 const std::vector<Setting>& settings = {});
+
+/// One lane of an input or output register.
+inline void set_lane(double* rows, int lane, const double* numbers, int width) {
+  for (int i = 0; i < width; ++i) rows[i * kLanes + lane] = numbers[i];
+}
+inline void get_lane(const double* rows, int lane, double* numbers, int width) {
+  for (int i = 0; i < width; ++i) numbers[i] = rows[i * kLanes + lane];
+}
+
+/// Runs frames 0 to `count` - 1, kLanes at a time: `set(instance, frame, lane)` before a block for
+/// each of its frames, `take(instance, frame, lane)` after it. Lanes past the end keep what they
+/// had.
+template <class Set, class Take>
+void for_frames(const Program& program, std::size_t count, Set set, Take take) {
+  Instance instance(program);
+  for (std::size_t first = 0; first < count; first += kLanes) {
+    const int lanes = static_cast<int>(std::min<std::size_t>(kLanes, count - first));
+    for (int lane = 0; lane < lanes; ++lane)
+      set(instance, first + static_cast<std::size_t>(lane), lane);
+    instance.run();
+    for (int lane = 0; lane < lanes; ++lane)
+      take(instance, first + static_cast<std::size_t>(lane), lane);
+  }
+}
+
+}  // namespace rigc::eval

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// A program as text. Test: tests/eval/program_test.cpp
+#include "eval/program.h"
+
+#include "base/text.h"
+#include "eval/kernels/table.h"
+#include "fmt/format.h"
+
+namespace rigc::eval {
+
+namespace {
+
+// r5 is one row, r5+3 are rows 5, 6 and 7.
+std::string text_of(const Register& r) {
+  return r.width == 1 ? fmt::format("r{}", r.row) : fmt::format("r{}+{}", r.row, r.width);
+}
+
+}  // namespace
+
+std::string Program::dump(const scene::Scene& scene) const {
+  std::string out = fmt::format("rows {}\n", rows);
+  for (const Register& input : inputs) out += fmt::format("input {}\n", text_of(input));
+  for (const Constant& c : constants) out += fmt::format("r{} = {}\n", c.row, number_text(c.value));
+  for (const Instruction& i : instructions) {
+    out += fmt::format("{} = {}", text_of(i.out), row(i.op).name);
+    for (std::uint32_t a = 0; a < i.argument_count; ++a) {
+      out += fmt::format(" {}", text_of(arguments[i.first_argument + a]));
+    }
+    const scene::Node& node = scene[scene::NodeId{i.node}];
+    out += fmt::format("  # {} {}\n", spec(node.kind).name, printable(node.name));
+  }
+  for (const Register& output : outputs) out += fmt::format("output {}\n", text_of(output));
+  return out;
+}
+
+}  // namespace rigc::eval

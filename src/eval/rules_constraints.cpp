@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Rules of the weighted constraints and of aim. Test: tests/eval/compile_test.cpp
+#include "eval/codes.h"
+#include "eval/rules_of_kinds.h"
+#include "eval/values.h"
+#include "fmt/format.h"
+
+namespace rigc::eval {
+
+namespace {
+
+namespace constraint = scene::constraint;
+namespace aim = scene::aim;
+
+// Each target, then its weight.
+void add_targets(const scene::Scene& scene, scene::NodeId node, std::uint16_t targets,
+                 std::uint16_t weights, Plugs& plugs) {
+  const auto count = static_cast<std::int32_t>(element_count(scene, node, targets));
+  const auto weighted = static_cast<std::int32_t>(element_count(scene, node, weights));
+  for (std::int32_t i = 0; i < count && i < weighted; ++i) {
+    plugs.push_back({node, targets, i});
+    plugs.push_back({node, weights, i});
+  }
+}
+
+}  // namespace
+
+std::size_t element_count(const scene::Scene& scene, scene::NodeId node, std::uint16_t attribute) {
+  return scene[node].attributes[attribute].size();
+}
+
+void append(std::vector<double>& data, const scene::Scene& scene, scene::NodeId node,
+            std::uint16_t attribute) {
+  for (scene::Value value : scene[node].attributes[attribute]) {
+    if (auto* q = std::get_if<math::Quat>(&value)) *q = math::normalised(*q);
+    const std::vector<double> numbers = numbers_of(value);
+    data.insert(data.end(), numbers.begin(), numbers.end());
+  }
+}
+
+std::nullopt_t bad_node(const scene::Scene& scene, scene::NodeId node, const std::string& message,
+                        Diagnostics& diagnostics) {
+  diagnostics.report(codes::kBadNode, scene[node].origin.span,
+                     fmt::format("{}: {}", describe_node(scene, node), message));
+  return std::nullopt;
+}
+
+Plugs constraint_reads(const scene::Scene& scene, scene::NodeId node) {
+  Plugs plugs{{node, constraint::kParent}};
+  add_targets(scene, node, constraint::kTargets, constraint::kWeights, plugs);
+  return plugs;
+}
+
+std::optional<Operand> constraint_emit(Emitter& emitter, const scene::Scene& scene,
+                                       scene::NodeId node, const Operands& arguments,
+                                       Diagnostics& diagnostics) {
+  const std::size_t count = element_count(scene, node, constraint::kTargets);
+  const std::size_t weights = element_count(scene, node, constraint::kWeights);
+  const std::size_t offsets = element_count(scene, node, constraint::kOffsets);
+  if (count == 0) return bad_node(scene, node, "it has no targets", diagnostics);
+  if (weights != count || offsets != count) {
+    return bad_node(scene, node,
+                    fmt::format("{} targets, {} weights and {} offsets", count, weights, offsets),
+                    diagnostics);
+  }
+  std::vector<double> data{static_cast<double>(count)};
+  append(data, scene, node, constraint::kOffsets);
+  return emitter.emit(Op::constraint, arguments, data, 10, node.index);
+}
+
+OutputPlace constraint_place(const scene::Plug& output) {
+  switch (output.attribute) {
+    case constraint::kTranslate:
+      return {0, 3};
+    case constraint::kRotation:
+      return {3, 4};
+    case constraint::kScale:
+      return {7, 3};
+    default:
+      return {3, 4, true};
+  }
+}
+
+Plugs aim_reads(const scene::Scene& scene, scene::NodeId node) {
+  Plugs plugs{
+      {node, aim::kParent}, {node, aim::kPosition}, {node, aim::kUpTarget}, {node, aim::kUpVector}};
+  add_targets(scene, node, aim::kTargets, aim::kWeights, plugs);
+  return plugs;
+}
+
+std::optional<Operand> aim_emit(Emitter& emitter, const scene::Scene& scene, scene::NodeId node,
+                                const Operands& arguments, Diagnostics& diagnostics) {
+  const std::size_t count = element_count(scene, node, aim::kTargets);
+  const std::size_t weights = element_count(scene, node, aim::kWeights);
+  if (count == 0) return bad_node(scene, node, "it has no targets", diagnostics);
+  if (weights != count) {
+    return bad_node(scene, node, fmt::format("{} targets and {} weights", count, weights),
+                    diagnostics);
+  }
+  const double mode = scene.number({node, aim::kUpMode});
+  if (mode != 0 && mode != 1 && mode != 2) {
+    return bad_node(scene, node, fmt::format("up_mode is {}, not 0, 1 or 2", mode), diagnostics);
+  }
+  std::vector<double> data{static_cast<double>(count), mode};
+  append(data, scene, node, aim::kOffset);
+  return emitter.emit(Op::aim, arguments, data, 4, node.index);
+}
+
+OutputPlace aim_place(const scene::Plug& output) {
+  return {0, 4, output.attribute == aim::kRotate};
+}
+
+}  // namespace rigc::eval

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Rules of the IK solvers. Test: tests/eval/compile_test.cpp
+#include <algorithm>
+
+#include "eval/kernels/chain_steps.h"
+#include "eval/rules_of_kinds.h"
+#include "fmt/format.h"
+
+namespace rigc::eval {
+
+namespace ik2 = scene::ik2;
+namespace ik_chain_at = scene::ik_chain;
+
+namespace {
+
+constexpr double kMostIterations = 1000;
+
+}  // namespace
+
+Plugs two_bone_reads(const scene::Scene&, scene::NodeId node) {
+  Plugs plugs;
+  for (std::uint16_t i = ik2::kBase; i <= ik2::kMiddleScale; ++i) plugs.push_back({node, i});
+  return plugs;
+}
+
+std::optional<Operand> two_bone_emit(Emitter& emitter, const scene::Scene& scene,
+                                     scene::NodeId node, const Operands& arguments,
+                                     Diagnostics& diagnostics) {
+  const std::size_t offsets = element_count(scene, node, ik2::kOffsets);
+  if (offsets != 2) {
+    return bad_node(scene, node, fmt::format("it has {} offsets, not 2", offsets), diagnostics);
+  }
+  std::vector<double> data;
+  append(data, scene, node, ik2::kGoalOffset);
+  append(data, scene, node, ik2::kOffsets);
+  append(data, scene, node, ik2::kNormal);
+  return emitter.emit(Op::ik_two_bone, arguments, data, 24, node.index);
+}
+
+OutputPlace two_bone_place(const scene::Plug& output) {
+  return {output.attribute == ik2::kStartWorld ? 0u : 12u, 12};
+}
+
+Plugs chain_reads(const scene::Scene& scene, scene::NodeId node) {
+  Plugs plugs{{node, ik_chain_at::kBase},
+              {node, ik_chain_at::kGoal},
+              {node, ik_chain_at::kPole},
+              {node, ik_chain_at::kTwist}};
+  const auto count =
+      static_cast<std::int32_t>(element_count(scene, node, ik_chain_at::kTranslates));
+  for (std::int32_t i = 0; i < count; ++i) plugs.push_back({node, ik_chain_at::kTranslates, i});
+  return plugs;
+}
+
+std::optional<Operand> chain_emit(Emitter& emitter, const scene::Scene& scene, scene::NodeId node,
+                                  const Operands& arguments, Diagnostics& diagnostics) {
+  const std::size_t count = element_count(scene, node, ik_chain_at::kTranslates);
+  const std::size_t rests = element_count(scene, node, ik_chain_at::kRests);
+  if (count < 2 || count > chain::kMaxJoints) {
+    return bad_node(scene, node,
+                    fmt::format("it has {} joints, not 2 to {}", count, chain::kMaxJoints),
+                    diagnostics);
+  }
+  if (rests != count) {
+    return bad_node(scene, node, fmt::format("{} translates and {} rests", count, rests),
+                    diagnostics);
+  }
+  const double iterations = scene.number({node, ik_chain_at::kIterations});
+  if (!(iterations >= 0 && iterations <= kMostIterations)) {
+    return bad_node(scene, node,
+                    fmt::format("{} iterations, not 0 to {}", iterations, kMostIterations),
+                    diagnostics);
+  }
+  std::vector<double> data{static_cast<double>(count), scene.number({node, ik_chain_at::kHasPole}),
+                           iterations};
+  append(data, scene, node, ik_chain_at::kGoalOffset);
+  append(data, scene, node, ik_chain_at::kRests);
+  const auto width = static_cast<std::uint32_t>(4 * (count - 1));
+  return emitter.emit(Op::ik_chain, arguments, data, width, node.index);
+}
+
+OutputPlace chain_place(const scene::Plug& output) {
+  return {4 * static_cast<std::uint32_t>(std::min(output.element, chain::kMaxJoints)), 4};
+}
+
+}  // namespace rigc::eval

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Which glTF node each scene node becomes, and the text of those that are ours.
+// Test: tests/gltf/rig_test.cpp
+#include "gltf/rig_nodes.h"
+
+#include <map>
+
+#include "base/json.h"
+#include "base/text.h"
+#include "gltf/float_text.h"
+
+namespace rigc::gltf {
+namespace {
+
+using scene::NodeId;
+using scene::Scene;
+
+bool is_transform(const Scene& scene, NodeId id) {
+  return scene::spec(scene[id].kind).is_transform;
+}
+
+/// Every node in the scene, parents first.
+std::vector<NodeId> parents_first(const Scene& scene) {
+  std::vector<NodeId> order, open;
+  for (const NodeId root : scene.nodes()) {
+    if (scene[root].parent.valid()) continue;
+    open.push_back(root);
+    while (!open.empty()) {
+      const NodeId id = open.back();
+      open.pop_back();
+      order.push_back(id);
+      const auto& children = scene[id].children;
+      open.insert(open.end(), children.rbegin(), children.rend());
+    }
+  }
+  return order;
+}
+
+std::vector<int> foreign_nodes(const Rig& rig) {
+  std::map<JointKey, int> by_key;
+  for (const tags::TaggedJoint& joint : rig.skeleton.joints) by_key[joint.key] = joint.foreign_node;
+  std::vector<int> foreign(rig.scene.size(), -1);
+  for (const NodeId id : rig.scene.nodes()) {
+    if (!rig.scene[id].is_skeleton()) continue;
+    const auto found = by_key.find(rig.scene[id].identity.owner);
+    if (found != by_key.end()) foreign[id.index] = found->second;
+  }
+  return foreign;
+}
+
+/// Joints of the skeleton, joints that commands hung under them, joints that proxy meshes are bound to, and all that
+/// carries one of these.
+std::vector<bool> staying(const Scene& scene, const std::vector<NodeId>& order) {
+  std::vector<bool> stays(scene.size(), false);
+  for (const NodeId id : order) {
+    const scene::Node& node = scene[id];
+    const bool on_joint = node.parent.valid() && stays[node.parent.index];
+    if (node.is_skeleton() || (node.kind == scene::Kind::joint && on_joint)) stays[id.index] = true;
+    if (node.kind != scene::Kind::mesh) continue;
+    for (const scene::Connection& connection : node.inputs)
+      stays[connection.from.node.index] = true;
+  }
+  for (auto id = order.rbegin(); id != order.rend(); ++id) {
+    const NodeId parent = scene[*id].parent;
+    if (stays[id->index] && parent.valid()) stays[parent.index] = true;
+  }
+  return stays;
+}
+
+void add_member(std::string& text, std::string_view name, const std::string& value) {
+  if (text.size() > 1) text += ',';
+  text += json::quote(name) + ':' + value;
+}
+
+}  // namespace
+
+NodePlan plan_nodes(const Rig& rig, int ancestor) {
+  const Scene& scene = rig.scene;
+  const std::vector<NodeId> order = parents_first(scene);
+  const std::vector<bool> stays = staying(scene, order);
+  NodePlan plan;
+  plan.foreign = foreign_nodes(rig);
+  plan.roots.assign(scene.size(), -1);
+  for (const NodeId id : order) {
+    if (!is_transform(scene, id)) continue;
+    const NodeId parent = scene[id].parent;
+    const bool foreign = plan.foreign[id.index] >= 0;
+    // A joint of the model hangs under the model's joints, but not under nodes of ours.
+    const bool follows = parent.valid() && (!foreign || plan.foreign[parent.index] >= 0);
+    plan.roots[id.index] = ancestor >= 0 ? 0
+                           : follows     ? plan.roots[parent.index]
+                                         : static_cast<int>(id.index);
+    if (!foreign) (stays[id.index] ? plan.stays : plan.goes).push_back(id);
+  }
+  return plan;
+}
+
+std::string extras_text(const Rig& rig, NodeId id) {
+  const scene::Node& node = rig.scene[id];
+  Identity identity = node.identity;
+  identity.rig = rig.id;
+  std::string text = "{";
+  add_member(text, "rigc", json::quote(to_text(identity)));
+  using Flavour = scene::UserAttribute::Flavour;
+  for (const scene::UserAttribute& attribute : node.user) {
+    if (!attribute.keyable) continue;
+    const bool whole = attribute.flavour == Flavour::integer || attribute.flavour == Flavour::boolean;
+    std::string number = number_text(attribute.value);
+    // Other programs take a number without a point for an integer, and round its keys.
+    if (!whole && number.find_first_of(".e") == std::string::npos) number += ".0";
+    add_member(text, attribute.name, number);
+  }
+  return text + '}';
+}
+
+std::string node_text(const Rig& rig, const NodePlan& plan, NodeId id, int mesh) {
+  const scene::Node& node = rig.scene[id];
+  const math::Trs local = rig.scene.local(id);
+  std::string text = "{";
+  if (!node.name.empty()) add_member(text, "name", json::quote(node.name));
+  if (local.translation != math::Vec3{})
+    add_member(text, "translation", float_list(&local.translation.x, 3));
+  if (local.rotation != math::Quat{}) add_member(text, "rotation", float_list(&local.rotation.x, 4));
+  if (local.scale != math::Vec3{1, 1, 1}) add_member(text, "scale", float_list(&local.scale.x, 3));
+  if (mesh >= 0) add_member(text, "mesh", std::to_string(mesh));
+  std::string children;
+  for (const NodeId child : node.children) {
+    if (!is_transform(rig.scene, child) || !hangs_as_in_scene(plan, child)) continue;
+    children += (children.empty() ? "" : ",") + std::to_string(rig.nodes[child.index]);
+  }
+  if (!children.empty()) add_member(text, "children", '[' + children + ']');
+  add_member(text, "extras", extras_text(rig, id));
+  return text + '}';
+}
+
+}  // namespace rigc::gltf

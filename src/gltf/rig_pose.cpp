@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// What animators set in a file without keying it. Test: tests/gltf/rig_read_test.cpp
+#include "gltf/rig_pose.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "gltf/rig_codes.h"
+#include "gltf/rig_json_values.h"
+
+namespace rigc::gltf {
+namespace {
+
+using scene::NodeId;
+using scene::Plug;
+
+// Other programs keep floats, and their way from and to matrices costs a few more bits.
+constexpr double kRelative = 1.0 / (1 << 22);
+constexpr double kAbsolute = 1e-9;
+
+bool same(double a, double b) {
+  return static_cast<float>(a) == static_cast<float>(b) ||
+         std::abs(a - b) <= std::max(kAbsolute, kRelative * std::max(std::abs(a), std::abs(b)));
+}
+
+bool same(const math::Vec3& a, const math::Vec3& b) {
+  return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
+}
+
+/// As rotations: the two signs of a quaternion are one.
+bool same(const math::Quat& a, const math::Quat& b) {
+  const math::Quat c = math::dot(a, b) < 0 ? -b : b;
+  const double largest = std::max({std::abs(a.x - c.x), std::abs(a.y - c.y), std::abs(a.z - c.z),
+                                   std::abs(a.w - c.w)});
+  return largest <= kRelative;
+}
+
+bool is_driven(const scene::Scene& scene, NodeId id, std::uint16_t attribute) {
+  const auto& inputs = scene[id].inputs;
+  return std::any_of(inputs.begin(), inputs.end(), [&](const scene::Connection& connection) {
+    return connection.to.attribute == attribute;
+  });
+}
+
+void take_over_transform(const math::Trs& local, SceneMaker& maker, NodeId id) {
+  namespace transform = scene::transform;
+  const scene::Scene& scene = maker.scene();
+  const math::Trs before = scene.local(id);
+  if (!same(local.translation, before.translation) && !is_driven(scene, id, transform::kTranslate))
+    maker.set({id, transform::kTranslate}, local.translation);
+  const bool turned =
+      is_driven(scene, id, transform::kRotation) || is_driven(scene, id, transform::kRotate);
+  if (!same(local.rotation, before.rotation) && !turned)
+    maker.set({id, transform::kRotation}, local.rotation);
+  if (!same(local.scale, before.scale) && !is_driven(scene, id, transform::kScale))
+    maker.set({id, transform::kScale}, local.scale);
+}
+
+void take_over_attributes(const File& file, const json::Value& extras, SceneMaker& maker, NodeId id,
+                          Diagnostics& diagnostics) {
+  const std::size_t count = maker.scene()[id].user.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const scene::UserAttribute& attribute = maker.scene()[id].user[i];
+    const Plug plug{id, static_cast<std::uint16_t>(scene::kUserAttributes + i)};
+    const json::Value value = extras[attribute.name];
+    if (!value || !attribute.keyable || maker.scene().source(plug)) continue;
+    std::optional<double> number = value.number();
+    if (const auto flag = value.boolean()) number = *flag ? 1 : 0;
+    if (!number) {
+      diagnostics.report(codes::kExtraNotNumber, Place(file.path, value.pointer()),
+                         fmt::format("\"{}\" of \"{}\" is not a number", attribute.name,
+                                     printable(maker.scene()[id].name)));
+    } else if (!same(*number, attribute.value)) {
+      maker.set(plug, *number);
+    }
+  }
+}
+
+}  // namespace
+
+void take_over_pose(const File& file, const Slim& slim, const std::vector<json::Value>& nodes, Rig& rig,
+                    Diagnostics& diagnostics) {
+  SceneMaker maker(rig.scene);
+  for (const NodeId id : rig.scene.nodes()) {
+    const int node = rig.nodes[id.index];
+    if (rig.scene[id].kind != scene::Kind::control || node < 0) continue;
+    take_over_transform(slim.node(node).local, maker, id);
+    take_over_attributes(file, nodes[static_cast<std::size_t>(node)]["extras"], maker, id, diagnostics);
+  }
+}
+
+}  // namespace rigc::gltf

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Reads the rigs of a file: their text, then what the nodes say. Test: tests/gltf/rig_read_test.cpp
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "base/text.h"
+#include "gltf/rig.h"
+#include "gltf/rig_codes.h"
+#include "gltf/rig_json.h"
+#include "gltf/rig_json_reader.h"
+#include "gltf/rig_pose.h"
+#include "gltf/slim.h"
+
+namespace rigc::gltf {
+namespace {
+
+using scene::NodeId;
+
+Place at_node(const File& file, int node) { return {file.path, fmt::format("/nodes/{}", node)}; }
+
+/// What the nodes of a file say that they are.
+struct Identities {
+  std::map<Identity, int> nodes;
+  std::vector<bool> marked;   ///< by glTF node: it says what it is
+};
+
+std::optional<Identities> read_identities(const File& file, const std::vector<json::Value>& nodes,
+                                          Diagnostics& diagnostics) {
+  Identities out;
+  out.marked.assign(nodes.size(), false);
+  bool unique = true;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto text = nodes[i]["extras"]["rigc"].string();
+    const auto identity = text ? parse_identity(*text) : std::nullopt;
+    if (!identity) continue;
+    out.marked[i] = true;
+    const auto [at, is_new] = out.nodes.emplace(*identity, static_cast<int>(i));
+    if (is_new) continue;
+    unique = false;
+    diagnostics.report(
+        codes::kSameIdentity, at_node(file, static_cast<int>(i)),
+        fmt::format("nodes {} (\"{}\") and {} (\"{}\") both say that they are {}", at->second,
+                    printable(nodes[static_cast<std::size_t>(at->second)]["name"].string().value_or("")),
+                    i, printable(nodes[i]["name"].string().value_or("")), *text),
+        "remove extras.rigc from the one that is a copy");
+  }
+  if (!unique) return std::nullopt;
+  return out;
+}
+
+/// The node that stands for a scene node: the one that says so, else the one at the recorded index, if that one does
+/// not say something else.
+int find_node(const Identities& identities, const scene::Node& node, int recorded) {
+  const auto found = identities.nodes.find(node.identity);
+  if (found != identities.nodes.end()) return found->second;
+  const bool trusted = recorded >= 0 && recorded < static_cast<int>(identities.marked.size()) &&
+                       !identities.marked[static_cast<std::size_t>(recorded)];
+  return trusted ? recorded : -1;
+}
+
+/// Sets rig.nodes to the nodes that there are.
+bool resolve_nodes(const File& file, const Identities& identities, Rig& rig, std::set<int>& taken,
+                   Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.errors();
+  const auto count = static_cast<int>(identities.marked.size());
+  for (const NodeId id : rig.scene.nodes()) {
+    const scene::Node& node = rig.scene[id];
+    int& at = rig.nodes[id.index];
+    const bool has_place =
+        scene::spec(node.kind).is_transform || (node.kind == scene::Kind::mesh && at >= 0);
+    const int recorded = at;
+    at = has_place ? find_node(identities, node, recorded) : -1;
+    if (at < 0 && (recorded >= count || (recorded >= 0 && !has_place))) {
+      diagnostics.report(codes::kRigIndex, Place(file.path, "/extensions/RIGC_rig"),
+                         fmt::format("\"{}\" of rig {} says that it is node {} of {}, which it cannot be",
+                                     printable(node.name), rig.id, recorded, count));
+    } else if (at < 0 && has_place) {
+      diagnostics.report(codes::kNodeLost, Place(file.path, "/extensions/RIGC_rig"),
+                         fmt::format("no node stands for \"{}\" of rig {}", printable(node.name), rig.id));
+    } else if (at >= 0 && !taken.insert(at).second) {
+      diagnostics.report(codes::kRigDuplicate, at_node(file, at),
+                         fmt::format("\"{}\" of rig {} says that it is node {}, and so does another",
+                                     printable(node.name), rig.id, at));
+    }
+  }
+  return diagnostics.errors() == errors;
+}
+
+/// Joints of the model and the ancestor where they are now.
+void update_foreign_nodes(const Slim& slim, Rig& rig) {
+  std::map<JointKey, int> by_key;
+  bool found_root = false;
+  for (const NodeId id : rig.scene.nodes()) {
+    const scene::Node& node = rig.scene[id];
+    if (node.is_skeleton()) by_key[node.identity.owner] = rig.nodes[id.index];
+    const bool ours = scene::spec(node.kind).is_transform && !node.is_skeleton();
+    if (found_root || !ours || node.parent.valid() || rig.nodes[id.index] < 0) continue;
+    rig.ancestor = slim.node(rig.nodes[id.index]).parent;
+    found_root = true;
+  }
+  for (tags::TaggedJoint& joint : rig.skeleton.joints) {
+    const auto found = by_key.find(joint.key);
+    if (joint.foreign_node >= 0 && found != by_key.end()) joint.foreign_node = found->second;
+  }
+  if (rig.ancestor >= static_cast<int>(slim.nodes.size())) rig.ancestor = -1;
+}
+
+std::optional<std::vector<Rig>> read_texts(const File& file, const json::Value& extension,
+                                           Diagnostics& diagnostics) {
+  const auto version = extension["version"].integer();
+  if (!version || *version < 1 || *version > kRigVersionNumber) {
+    diagnostics.report(
+        codes::kRigVersion, Place(file.path, "/extensions/RIGC_rig"),
+        version ? fmt::format("RIGC_rig has version {}; this rigc reads version {}", *version,
+                              kRigVersionNumber)
+                : std::string("RIGC_rig has no version"));
+    return std::nullopt;
+  }
+  JsonReader reader(file.path, diagnostics);
+  std::vector<Rig> rigs;
+  std::set<std::uint32_t> ids;
+  bool complete = true;
+  for (const json::Value& item : reader.objects(extension, "rigs", kMostRigs, Need::required)) {
+    auto rig = from_json(item, file.path, diagnostics);
+    complete = complete && rig;
+    if (!rig) continue;
+    if (!ids.insert(rig->id).second)
+      reader.fail(codes::kRigDuplicate, item["id"], fmt::format("there are two rigs {}", rig->id));
+    rigs.push_back(std::move(*rig));
+  }
+  if (!complete || !reader.ok()) return std::nullopt;
+  std::stable_sort(rigs.begin(), rigs.end(), [](const Rig& a, const Rig& b) { return a.id < b.id; });
+  return rigs;
+}
+
+}  // namespace
+
+std::optional<std::vector<Rig>> read_rigs(const File& file, Diagnostics& diagnostics) {
+  const json::Value extension = file.root()["extensions"]["RIGC_rig"];
+  if (!extension) return std::vector<Rig>();
+  auto rigs = read_texts(file, extension, diagnostics);
+  const auto nodes = file.root()["nodes"].items();
+  const auto identities = read_identities(file, nodes, diagnostics);
+  if (!rigs || !identities) return std::nullopt;
+  const auto slim = read_slim(file, diagnostics);
+  if (!slim) return std::nullopt;
+  std::set<int> taken;
+  bool complete = true;
+  for (Rig& rig : *rigs) {
+    if (!resolve_nodes(file, *identities, rig, taken, diagnostics)) complete = false;
+    if (!complete) continue;
+    update_foreign_nodes(*slim, rig);
+    take_over_pose(file, *slim, nodes, rig, diagnostics);
+  }
+  if (!complete) return std::nullopt;
+  return rigs;
+}
+
+}  // namespace rigc::gltf

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Measuring: a least-squares map from the template's left and up to where the matched bones are in the world.
+// There, not in rig space, a character is never mirrored, so that left x up is forward.
+// Test: tests/templates/fit_test.cpp
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "base/text.h"
+#include "templates/codes.h"
+#include "templates/fit_match.h"
+
+namespace rigc::templates {
+namespace {
+
+using math::Vec3;
+
+constexpr double kSnapLeft = 0.9994;   // cosine of 2 degrees: left is measured well, from pairs
+constexpr double kSnapUp = 0.9659;     // of 15 degrees: a spine leans
+constexpr double kMostAsymmetry = 0.02;
+
+struct Sample {
+  Vec3 own;      ///< in the template, metres
+  Vec3 rig;      ///< in the model's rig space
+  Vec3 world;
+};
+
+std::vector<Sample> samples_of(const Expanded& expanded, const tags::TaggedSkeleton& placed,
+                               const std::vector<math::Affine>& placed_worlds,
+                               const tags::ForeignSkeleton& model, const Matching& matching) {
+  std::unordered_map<std::uint64_t, std::pair<std::size_t, std::size_t>> range;
+  for (std::size_t i = 0; i < placed.joints.size(); ++i) {
+    const auto [found, fresh] = range.emplace(placed.joints[i].key.uid, std::pair(i, i));
+    if (!fresh) found->second.second = i;
+  }
+  std::vector<Sample> samples;
+  const auto add = [&](std::size_t joint, int bone) {
+    const Vec3 rig = model.joints[static_cast<std::size_t>(bone)].rest.origin;
+    samples.push_back({placed_worlds[joint].origin, rig, model.ancestor_world * rig});
+  };
+  for (std::size_t i = 0; i < expanded.joints.size(); ++i) {
+    if (!matching.has(i)) continue;
+    const auto [first, last] = range.at(expanded.joints[i].tagged.key.uid);
+    add(first, matching.bones[i].front());
+    if (matching.bones[i].size() > 1 && last != first) add(last, matching.bones[i].back());
+  }
+  return samples;
+}
+
+/// World directions into which left and up went; zero where the samples do not spread that way.
+std::pair<Vec3, Vec3> regress(const std::vector<Sample>& samples) {
+  Vec3 own_mean, world_mean;
+  const double share = 1 / static_cast<double>(samples.size());
+  for (const Sample& sample : samples) {
+    own_mean = own_mean + sample.own * share;
+    world_mean = world_mean + sample.world * share;
+  }
+  double xx = 0, xy = 0, yy = 0;
+  Vec3 x, y;
+  for (const Sample& sample : samples) {
+    const Vec3 own = sample.own - own_mean;
+    const Vec3 world = sample.world - world_mean;
+    xx += own.x * own.x;
+    xy += own.x * own.y;
+    yy += own.y * own.y;
+    x = x + world * own.x;
+    y = y + world * own.y;
+  }
+  const double determinant = xx * yy - xy * xy;
+  if (determinant > 1e-6 * (xx + yy) * (xx + yy))
+    return {x * yy - y * xy, y * xx - x * xy};
+  if (xx > yy) return {x, {}};
+  return {{}, y};
+}
+
+Vec3 snapped(Vec3 direction, double cosine) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Vec3 candidate;
+    candidate[axis] = direction[axis] < 0 ? -1 : 1;
+    if (dot(candidate, direction) >= cosine) return candidate;
+  }
+  return direction;
+}
+
+/// Left and up in the world, unit and at right angles.
+std::pair<Vec3, Vec3> axes_of(const std::vector<Sample>& samples) {
+  const Vec3 world_left{1, 0, 0}, world_up{0, 1, 0};
+  if (samples.empty()) return {world_left, world_up};
+  auto [left, up] = regress(samples);
+  const bool has_left = length(left) > 1e-12, has_up = length(up) > 1e-12;
+  if (has_left) left = snapped(normalised(left), kSnapLeft);
+  if (has_up) up = snapped(normalised(up), kSnapUp);
+  if (!has_left && !has_up) return {world_left, world_up};
+  const auto across = [](Vec3 v, Vec3 axis, Vec3 other) {
+    Vec3 rest = v - axis * dot(v, axis);
+    if (length(rest) < 0.1) rest = other - axis * dot(other, axis);
+    return normalised(rest, perpendicular(axis));
+  };
+  if (!has_left) return {across(world_left, up, {0, 0, 1}), up};
+  if (!has_up) return {left, across(world_up, left, {0, 0, 1})};
+  return {left, snapped(across(up, left, world_up), kSnapUp)};
+}
+
+template <class Position>
+std::pair<double, double> extent(const std::vector<Sample>& samples, Position position) {
+  std::pair<double, double> range{0, 0};
+  bool first = true;
+  for (const Sample& sample : samples) {
+    const double at = position(sample);
+    range.first = first ? at : std::min(range.first, at);
+    range.second = first ? at : std::max(range.second, at);
+    first = false;
+  }
+  return range;
+}
+
+/// The largest distance of a bone from the mirror image of its opposite.
+void check_symmetry(const Expanded& expanded, const tags::ForeignSkeleton& model,
+                    const Matching& matching, Vec3 left, FitReport& report,
+                    Diagnostics& diagnostics) {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  const auto position = [&](std::size_t joint) {
+    const int bone = matching.bones[joint].front();
+    return model.ancestor_world * model.joints[static_cast<std::size_t>(bone)].rest.origin;
+  };
+  double centre = 0;
+  for (std::size_t i = 0; i < expanded.joints.size(); ++i) {
+    const int other = expanded.joints[i].opposite;
+    if (other <= static_cast<int>(i) || !matching.has(i) ||
+        !matching.has(static_cast<std::size_t>(other)))
+      continue;
+    pairs.emplace_back(i, static_cast<std::size_t>(other));
+    centre += dot(position(i) + position(pairs.back().second), left) / 2;
+  }
+  if (pairs.empty() || !(report.height_metres > 0)) return;
+  centre = centre / static_cast<double>(pairs.size());
+  for (const auto& [a, b] : pairs) {
+    const Vec3 here = position(a);
+    const Vec3 image = here - left * (2 * (dot(here, left) - centre));
+    const double distance = length(image - position(b));
+    if (report.asymmetry && distance <= report.asymmetry->metres) continue;
+    const auto bone = [&](std::size_t joint) {
+      return model.joints[static_cast<std::size_t>(matching.bones[joint].front())].name;
+    };
+    report.asymmetry = {bone(a), bone(b), distance, distance / report.height_metres};
+  }
+  if (report.asymmetry->share <= kMostAsymmetry) return;
+  diagnostics.report(codes::kAsymmetric, Place(),
+                     fmt::format("{} is {:.0f} mm ({:.1f} % of the height) from the mirror image of {}",
+                                 printable(report.asymmetry->opposite, 60),
+                                 report.asymmetry->metres * 1000, report.asymmetry->share * 100,
+                                 printable(report.asymmetry->joint, 60)),
+                     "if the rest pose is a frame of a clip, choose another with --rest");
+}
+
+}  // namespace
+
+Measured measure(const Expanded& expanded, const tags::TaggedSkeleton& placed,
+                 const tags::ForeignSkeleton& model, const Matching& matching, FitReport& report,
+                 Diagnostics& diagnostics) {
+  std::vector<math::Affine> worlds;
+  for (const tags::TaggedJoint& joint : placed.joints) {
+    const math::Affine own = math::compose(joint.rest);
+    worlds.push_back(joint.parent < 0 ? own : worlds[static_cast<std::size_t>(joint.parent)] * own);
+  }
+  const auto samples = samples_of(expanded, placed, worlds, model, matching);
+  const auto [left, up] = axes_of(samples);
+  const Vec3 forward = cross(left, up);
+  const math::Mat3 to_rig = inverse(model.ancestor_world.linear);
+
+  Measured out;
+  out.world_left = left;
+  out.character.left = normalised(to_rig * left);
+  out.character.up = normalised(to_rig * up, {0, 1, 0});
+  out.character.forward = normalised(to_rig * forward, {0, 0, 1});
+  const Vec3 rig_up = out.character.up;
+  const Vec3 world_up = up;
+  const auto own = extent(samples, [](const Sample& s) { return s.own.y; });
+  const auto rig = extent(samples, [&](const Sample& s) { return dot(s.rig, rig_up); });
+  const auto world = extent(samples, [&](const Sample& s) { return dot(s.world, world_up); });
+  out.lowest = rig.first;
+  out.template_lowest = own.first;
+  report.height_metres = world.second - world.first;
+  const double own_height = own.second - own.first;
+  const double rig_height = rig.second - rig.first;
+  // Without two joints at different heights, a metre of the template is a metre of the world.
+  out.character.unit = own_height > 1e-6 && rig_height > 0 ? rig_height / own_height
+                                                           : length(to_rig * up);
+  out.character.height = rig_height > 0 ? rig_height : out.character.unit;
+  check_symmetry(expanded, model, matching, left, report, diagnostics);
+  return out;
+}
+
+}  // namespace rigc::templates
