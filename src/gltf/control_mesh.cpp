@@ -10,7 +10,7 @@
 namespace rigc::gltf {
 namespace {
 
-constexpr int kLines = 1;   // primitive mode
+constexpr int kLines = 1;  // primitive mode
 constexpr int kIndexTarget = 34963, kVertexTarget = 34962;
 
 /// Polylines as points and pairs of their indices.
@@ -61,18 +61,21 @@ NewAccessor indices(const Lines& lines) {
   accessor.component = small ? ComponentType::unsigned_short : ComponentType::unsigned_int;
   accessor.count = lines.indices.size();
   accessor.target = kIndexTarget;
-  for (const std::uint32_t index : lines.indices) append_unsigned(accessor.data, index, small ? 2 : 4);
+  for (const std::uint32_t index : lines.indices)
+    append_unsigned(accessor.data, index, small ? 2 : 4);
   return accessor;
 }
 
 }  // namespace
 
 int ControlMeshes::material(const math::Vec3& color) {
-  const double emissive[] = {linear_light(color.x), linear_light(color.y), linear_light(color.z)};
-  // Black that glows looks the same in any light, without an extension.
-  const std::string text =
-      R"({"emissiveFactor":)" + float_list(emissive, 3) +
-      R"(,"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1],"metallicFactor":0}})";
+  const double light[] = {linear_light(color.x), linear_light(color.y), linear_light(color.z)};
+  // Viewers that light lines need the glow, those that do not read the base colour alone.
+  std::string base = float_list(light, 3);
+  base.insert(base.size() - 1, ",1");
+  const std::string text = R"({"emissiveFactor":)" + float_list(light, 3) +
+                           R"(,"pbrMetallicRoughness":{"baseColorFactor":)" + base +
+                           R"(,"metallicFactor":0}})";
   const auto found = materials_.find(text);
   if (found != materials_.end()) return found->second;
   return materials_[text] = patch_.append("materials", text);
@@ -85,8 +88,9 @@ int ControlMeshes::mesh(const std::vector<double>& points, const math::Vec3& col
   NewAccessor index_accessor = indices(lines);
   NewAccessor point_accessor = positions(lines.points);
   const int color_material = material(color);
-  const std::string key = std::to_string(color_material) + ':' + std::to_string(lines.points.size()) +
-                          ':' + point_accessor.data + index_accessor.data;
+  const std::string key = std::to_string(color_material) + ':' +
+                          std::to_string(lines.points.size()) + ':' + point_accessor.data +
+                          index_accessor.data;
   const auto found = meshes_.find(key);
   if (found != meshes_.end()) return found->second;
 

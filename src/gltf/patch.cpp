@@ -14,20 +14,29 @@ namespace {
 
 constexpr std::string_view kMark = R"("extras":{"rigc":{"free":true}})";
 
-/// An element that nothing uses any more but whose index must stay. `accessor` is any accessor of
-/// ours.
-std::string placeholder(std::string_view array, int accessor) {
-  const std::string a = std::to_string(accessor);
+/// An element that nothing uses any more but whose index must stay. `first` and `second` are
+/// accessors of ours that only placeholders use; one accessor must not serve for two purposes.
+std::string placeholder(std::string_view array, int first, int second) {
   std::string text;
-  if (array == "meshes") text = R"("primitives":[{"attributes":{"_RIGC":)" + a + "}}],";
+  if (array == "meshes")
+    text = R"("primitives":[{"mode":0,"attributes":{"POSITION":)" + std::to_string(first) + "}}],";
   if (array == "skins") text = R"("joints":[0],)";
-  if (array == "accessors")
-    text = R"("componentType":5126,"count":1,"type":"SCALAR","min":[0],"max":[0],)";
+  if (array == "accessors") text = R"("componentType":5126,"count":1,"type":"SCALAR",)";
   if (array == "bufferViews") text = R"("buffer":0,"byteLength":1,)";
   if (array == "animations")
-    text = R"("channels":[{"sampler":0,"target":{"path":"weights"}}],"samplers":[{"input":)" + a +
-           R"(,"output":)" + a + "}],";
+    text = R"("channels":[{"sampler":0,"target":{"path":"weights"}}],"samplers":[{"input":)" +
+           std::to_string(first) + R"(,"output":)" + std::to_string(second) + "}],";
   return "{" + text + std::string(kMark) + "}";
+}
+
+/// An accessor of one element, all zeros, without bytes.
+std::string zero_accessor(std::string_view type, std::string_view zeros) {
+  json::Writer writer;
+  writer.begin_object().member("componentType", 5126).member("count", 1).member("type", type);
+  writer.key("min").raw(zeros).key("max").raw(zeros).end_object();
+  std::string text = writer.take();
+  text.pop_back();
+  return text + "," + std::string(kMark) + "}";
 }
 
 std::string child_list(const std::string& list, int child) {
@@ -158,13 +167,26 @@ std::string Patch::element(std::string_view array, int index) const {
   return state_->array(array).text(static_cast<std::size_t>(index));
 }
 
+int Patch::State::zeros(std::string_view purpose) {
+  for (const auto& [name, index] : zero_accessors)
+    if (name == purpose) return index;
+  ArrayChanges& accessors = array("accessors");
+  accessors.appended.push_back(purpose == "position" ? zero_accessor("VEC3", "[0,0,0]")
+                                                     : zero_accessor("SCALAR", "[0]"));
+  zero_accessors.emplace_back(purpose, static_cast<int>(accessors.size()) - 1);
+  return zero_accessors.back().second;
+}
+
 void Patch::replace(std::string_view array, int index, std::string json) {
   assert(index >= 0 && index < count(array));
   if (json.empty()) {
-    const bool needs_accessor = array == "meshes" || array == "animations";
-    if (needs_accessor && state_->placeholder_accessor < 0)
-      state_->placeholder_accessor = append("accessors", placeholder("accessors", 0));
-    json = placeholder(array, state_->placeholder_accessor);
+    int first = 0, second = 0;
+    if (array == "meshes") first = state_->zeros("position");
+    if (array == "animations") {
+      first = state_->zeros("input");
+      second = state_->zeros("output");
+    }
+    json = placeholder(array, first, second);
   }
   state_->array(array).set(static_cast<std::size_t>(index), std::move(json));
 }
@@ -176,8 +198,8 @@ void Patch::truncate(std::string_view array, int size) {
   changes.appended.resize(keep > changes.kept ? keep - changes.kept : 0);
   changes.kept = std::min(changes.kept, keep);
   changes.changed.erase(changes.changed.lower_bound(keep), changes.changed.end());
-  if (array == "accessors" && state_->placeholder_accessor >= size)
-    state_->placeholder_accessor = -1;
+  if (array == "accessors")
+    std::erase_if(state_->zero_accessors, [&](const auto& entry) { return entry.second >= size; });
   if (array == "bufferViews")
     std::erase_if(state_->views, [&](const PendingView& view) { return view.index >= size; });
 }
@@ -185,6 +207,7 @@ void Patch::truncate(std::string_view array, int size) {
 void Patch::truncate_buffer(std::uint64_t byte_length) { state_->buffer_length = byte_length; }
 
 std::uint64_t Patch::buffer_length() const {
+  if (state_->buffer_length) return *state_->buffer_length;
   const auto buffers = file_.root()["buffers"].items();
   if (buffers.empty()) return 0;
   return static_cast<std::uint64_t>(buffers[0]["byteLength"].integer().value_or(0));

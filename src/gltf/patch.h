@@ -84,7 +84,7 @@ class Patch {
   /// append, where that was recorded. Without this, up to 3 bytes of padding before our data stay
   /// in its byteLength.
   void truncate_buffer(std::uint64_t byte_length);
-  /// byteLength of buffer 0 as the file has it, 0 without one.
+  /// byteLength of buffer 0 without what this patch appends, 0 without a buffer.
   std::uint64_t buffer_length() const;
   /// Sets one member of an element ("nodes", 3, "extras", ...) keeping the others; json empty
   /// removes it.
@@ -103,8 +103,9 @@ class Patch {
   void use_extension(std::string_view name);
   void drop_extension(std::string_view name);
 
-  /// The file's text with all changes, and its buffers. `binary`: as .glb (BIN is extended) or
-  /// .gltf.
+  /// The file's text with all changes, and its buffers, as .glb or .gltf; to be called once. Our
+  /// bytes extend BIN, and buffer 0 of a .gltf becomes BIN; a .gltf, and a .glb whose buffer 0 is a
+  /// file, get a buffer file of our own.
   std::optional<Output> finish(bool binary, Diagnostics& diagnostics);
 
   struct State;

@@ -19,7 +19,7 @@ using State = Patch::State;
 
 /// Where the rig's bytes go, and with them what the input had there.
 struct Plan {
-  enum class Home { none, bin, file, data_uri };
+  enum class Home { none, bin, file };
   Home home = Home::none;
   bool first = false;  ///< the rig's buffer is buffer 0, which begins with `prefix`
   std::string_view prefix;
@@ -103,7 +103,7 @@ Plan make_plan(State& state, bool binary) {
   plan.first = plan.home != Plan::Home::none;
   if (!plan.first && !state.data.empty()) {
     plan.first = binary && !has_first;
-    plan.home = plan.first ? Plan::Home::bin : binary ? Plan::Home::data_uri : Plan::Home::file;
+    plan.home = plan.first ? Plan::Home::bin : Plan::Home::file;
   } else if (plan.first) {
     plan.prefix = first_bytes(state, buffers.size());
     plan.verbatim =
@@ -202,7 +202,7 @@ void lay_out_glb(Output& output, const State& state, const Plan& plan, std::stri
   for (std::string_view chunk : state.file.other_chunks) output.pieces.push_back(chunk);
 }
 
-/// The rig's buffer in one string: for files and data URIs.
+/// The rig's buffer in one string, for a file of its own.
 std::string rig_buffer(const State& state, const Plan& plan) {
   std::string bytes(plan.prefix);
   if (!state.data.empty()) bytes += zeros(plan.prefix.size()) + state.data;
@@ -261,14 +261,10 @@ std::optional<Output> Patch::finish(bool binary, Diagnostics& diagnostics) {
   const Plan plan = make_plan(state, binary);
   Output output;
   std::string uri;
-  if (plan.home == Plan::Home::file || plan.home == Plan::Home::data_uri) {
+  if (plan.home == Plan::Home::file) {
     std::string bytes = rig_buffer(state, plan);
-    if (plan.home == Plan::Home::file) {
-      uri = "rigc_" + hex16(hash64(bytes)) + ".bin";
-      output.extra_files.push_back({uri, std::move(bytes)});
-    } else {
-      uri = "data:application/octet-stream;base64," + base64(bytes);
-    }
+    uri = "rigc_" + hex16(hash64(bytes)) + ".bin";
+    output.extra_files.push_back({uri, std::move(bytes)});
   }
   if (plan.home != Plan::Home::none) write_views(state, plan, write_buffer(state, plan, uri));
 

@@ -45,14 +45,17 @@ struct Patch::State {
   std::string member(std::string_view name) const;
   void set_member(std::string_view name, std::string json);
   std::string_view original_extras(int node) const;
+  /// An accessor of zeros for placeholders: "position", "input" or "output".
+  int zeros(std::string_view purpose);
 
   const File& file;
-  std::deque<std::pair<std::string, ArrayChanges>> arrays;   ///< in the order first touched; never move
+  std::deque<std::pair<std::string, ArrayChanges>>
+      arrays;  ///< in the order first touched; never move
   std::vector<std::pair<std::string, std::string>> members;  ///< of the root; empty text: removed
   std::string data;
   std::vector<PendingView> views;
   std::optional<std::uint64_t> buffer_length;
-  int placeholder_accessor = -1;
+  std::vector<std::pair<std::string, int>> zero_accessors;  ///< of placeholders, by purpose
 };
 
 /// The root object's text with all changes.

@@ -113,7 +113,7 @@ void write_nodes(Patch& patch, Rig& rig, const NodePlan& plan, const std::vector
 /// Identities of the model's joints, and what hangs under them or under the ancestor.
 void join_to_model(Patch& patch, const Rig& rig, const NodePlan& plan, int ancestor) {
   for (const NodeId id : rig.scene.nodes()) {
-    const NodeId parent = rig.scene[id].parent;
+    const NodeId parent = plan.parents[id.index];
     if (plan.foreign[id.index] >= 0) {
       Identity identity = rig.scene[id].identity;
       identity.rig = rig.id;

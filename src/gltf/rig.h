@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,8 +71,8 @@ std::optional<std::vector<Rig>> read_rigs(const File& file, Diagnostics& diagnos
 
 /// Takes rigs out of their file: controls with their shapes, identities and RIGC_rig go; joints, proxy meshes, and
 /// all that others added stay. Comes before anything is appended to the patch: then indices and bytes at the end are
-/// cut, else placeholders remain.
-void strip_rigs(Patch& patch, const File& file, const std::vector<Rig>& rigs);
+/// cut, else placeholders remain. Gives the glTF nodes that are gone: channels on them are the caller's to drop.
+std::set<int> strip_rigs(Patch& patch, const File& file, const std::vector<Rig>& rigs);
 inline void strip_rig(Patch& patch, const File& file, const Rig& rig) { strip_rigs(patch, file, {rig}); }
 
 /// Where a joint's node stands in its file, which may differ from the scene: a foreign node keeps its parent and the

@@ -197,7 +197,7 @@ void read_input(const json::Value& item, JsonReader& reader, SceneMaker& maker, 
   if (!to || !exists(scene, *to) || scene.role(*to) != scene::Role::input)
     return reader.fail(codes::kRigConnection, parts[0],
                        fmt::format("the node has no input \"{}\"", printable(to_path)));
-  if (!from || !exists(scene, *from))
+  if (!from)
     return reader.fail(codes::kRigConnection, parts[2],
                        fmt::format("node {} has no attribute \"{}\"", from_node, printable(from_path)));
   if (scene.type(*to) != scene.type(*from))

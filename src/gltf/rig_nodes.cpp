@@ -81,16 +81,23 @@ NodePlan plan_nodes(const Rig& rig, int ancestor) {
   NodePlan plan;
   plan.foreign = foreign_nodes(rig);
   plan.roots.assign(scene.size(), -1);
+  plan.parents.resize(scene.size());
+  plan.children.resize(scene.size());
   for (const NodeId id : order) {
+    const NodeId above = scene[id].parent;
+    // What hangs under a constraint has its place where the constraint has its own.
+    const bool skips = above.valid() && !is_transform(scene, above);
+    const NodeId parent = plan.parents[id.index] = skips ? plan.parents[above.index] : above;
     if (!is_transform(scene, id)) continue;
-    const NodeId parent = scene[id].parent;
     const bool foreign = plan.foreign[id.index] >= 0;
     // A joint of the model hangs under the model's joints, but not under nodes of ours.
     const bool follows = parent.valid() && (!foreign || plan.foreign[parent.index] >= 0);
     plan.roots[id.index] = ancestor >= 0 ? 0
                            : follows     ? plan.roots[parent.index]
                                          : static_cast<int>(id.index);
-    if (!foreign) (stays[id.index] ? plan.stays : plan.goes).push_back(id);
+    if (foreign) continue;
+    (stays[id.index] ? plan.stays : plan.goes).push_back(id);
+    if (parent.valid()) plan.children[parent.index].push_back(id);
   }
   return plan;
 }
@@ -124,10 +131,8 @@ std::string node_text(const Rig& rig, const NodePlan& plan, NodeId id, int mesh)
   if (local.scale != math::Vec3{1, 1, 1}) add_member(text, "scale", float_list(&local.scale.x, 3));
   if (mesh >= 0) add_member(text, "mesh", std::to_string(mesh));
   std::string children;
-  for (const NodeId child : node.children) {
-    if (!is_transform(rig.scene, child) || !hangs_as_in_scene(plan, child)) continue;
+  for (const NodeId child : plan.children[id.index])
     children += (children.empty() ? "" : ",") + std::to_string(rig.nodes[child.index]);
-  }
   if (!children.empty()) add_member(text, "children", '[' + children + ']');
   add_member(text, "extras", extras_text(rig, id));
   return text + '}';

@@ -109,7 +109,7 @@ tags::ForeignSkeleton assemble(const Slim& slim, const Bones& bones,
 std::optional<std::vector<tags::ForeignSkeleton>> read_skeletons(const File& file,
                                                                  const std::string& rest,
                                                                  Diagnostics& diagnostics) {
-  const auto slim = read_slim(file, diagnostics);
+  const auto slim = read_slim(file, diagnostics, false);
   if (!slim) return std::nullopt;
   std::map<int, Affine> posed;
   if (rest != "bind" && rest != "nodes") {

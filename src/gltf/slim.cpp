@@ -90,7 +90,7 @@ void copy_animation(json::Writer& writer, const json::Value& animation) {
   writer.end_array();
 }
 
-std::string slim_text(const File& file) {
+std::string slim_text(const File& file, bool animations) {
   struct Part {
     const char* array;
     void (*copy)(json::Writer&, const json::Value&);
@@ -105,7 +105,7 @@ std::string slim_text(const File& file) {
   writer.key("asset").begin_object().member("version", "2.0").end_object();
   for (const Part& part : kParts) {
     const auto items = file.root()[part.array].items();
-    if (items.empty()) continue;
+    if (items.empty() || (part.copy == copy_animation && !animations)) continue;
     writer.key(part.array).begin_array();
     for (const json::Value& item : items) {
       writer.begin_object();
@@ -216,11 +216,11 @@ Slim convert(const tinygltf::Model& model, const File& file) {
 
 }  // namespace
 
-std::optional<Slim> read_slim(const File& file, Diagnostics& diagnostics) {
+std::optional<Slim> read_slim(const File& file, Diagnostics& diagnostics, bool animations) {
   tinygltf::TinyGLTF reader;
   tinygltf::Model model;
   std::string error, warning;
-  const std::string text = slim_text(file);
+  const std::string text = slim_text(file, animations);
   const json::Value root = file.root();
   const bool read = reader.LoadASCIIFromString(&model, &error, &warning, text.data(),
                                                static_cast<unsigned>(text.size()), "");
@@ -228,7 +228,7 @@ std::optional<Slim> read_slim(const File& file, Diagnostics& diagnostics) {
                         model.skins.size() == root["skins"].size() &&
                         model.accessors.size() == root["accessors"].size() &&
                         model.bufferViews.size() == root["bufferViews"].size() &&
-                        model.animations.size() == root["animations"].size();
+                        model.animations.size() == (animations ? root["animations"].size() : 0);
   if (read && complete) return convert(model, file);
   diagnostics.report(codes::kReader, Place(file.path),
                      "tinygltf cannot read the nodes and animations: " + printable(trim(error)));

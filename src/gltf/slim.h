@@ -80,6 +80,7 @@ struct Slim {
   math::Affine world(int index) const { return index < 0 ? math::Affine() : node(index).world; }
 };
 
-std::optional<Slim> read_slim(const File& file, Diagnostics& diagnostics);
+/// Without `animations`, that part stays empty: it is most of what there is to read in many files.
+std::optional<Slim> read_slim(const File& file, Diagnostics& diagnostics, bool animations = true);
 
 }  // namespace rigc::gltf

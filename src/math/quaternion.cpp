@@ -42,15 +42,25 @@ Quat axis_angle(Vec3 unit_axis, double radians) {
   return {unit_axis.x * s, unit_axis.y * s, unit_axis.z * s, cos(radians / 2)};
 }
 
-Quat between(Vec3 a, Vec3 b) {
-  const Vec3 sum = a + b;
-  if (dot(sum, sum) < 1e-28) {
-    const Vec3 axis = perpendicular(a);
-    return {axis.x, axis.y, axis.z, 0};
-  }
-  const Vec3 half = normalised(sum);
+namespace {
+
+// For vectors at most a right angle apart.
+Quat between_near(Vec3 a, Vec3 b) {
+  const Vec3 half = normalised(a + b);
   const Vec3 axis = cross(a, half);
   return normalised(Quat{axis.x, axis.y, axis.z, dot(a, half)});
+}
+
+}  // namespace
+
+Quat between(Vec3 a, Vec3 b) {
+  if (dot(a, b) >= 0) return between_near(a, b);
+  // A half turn to -a, about the axis on which b lies too, and the rest of the way: the sum of two
+  // nearly opposite vectors says too little about where b is.
+  const Vec3 normal = normalised(cross(a, b), perpendicular(a));
+  const Vec3 axis = normalised(normal - a * dot(normal, a), perpendicular(a));
+  const Quat q = normalised(between_near(-a, b) * Quat{axis.x, axis.y, axis.z, 0});
+  return q.w < 0 ? -q : q;
 }
 
 Mat3 matrix(Quat q) {

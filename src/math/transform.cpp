@@ -43,7 +43,10 @@ Vec3 unit(Vec3 a) { return normalised(a, {}); }
 Vec3 reject(Vec3 a, Vec3 along) {
   a = unit(a);
   const Vec3 rest = a - along * dot(a, along);
-  return length(rest) < 1e-12 ? Vec3{} : unit(rest);
+  if (length(rest) < 1e-12) return {};
+  // What is left of a small difference still leans: twice is enough.
+  const Vec3 side = unit(rest);
+  return unit(side - along * dot(side, along));
 }
 
 // At right angles to unit vector `a`: Y for X, X for Y and Z.

@@ -49,7 +49,7 @@ struct Reduced {
 };
 
 Reduced reduce(double x) {
-  if (std::fabs(x) > 1e6) x = std::fmod(finite(x), 4 * kHalfPiHigh);
+  if (!(std::fabs(x) <= 1e6)) x = std::fmod(finite(x), 4 * kHalfPiHigh);
   if (std::fabs(x) <= 0.78) return {{x, 0}, 0};
   const double n = std::floor(x * (2 / kPi) + 0.5);
   const Pair first = exact_difference(x - n * kHalfPi1, n * kHalfPi2);

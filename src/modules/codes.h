@@ -48,9 +48,13 @@ inline constexpr Code kNotMadeByCommand{
     473, Severity::error, "node belongs to the skeleton",
     "Joints of the skeleton stay where they are in the hierarchy; constraints move them."};
 
+inline constexpr Code kSameAxis{
+    474, Severity::error, "one axis for two directions",
+    "`aim` and `up` of an aim_constraint name different axes: x, y or z, of either sign."};
+
 inline constexpr const Code* kModulesCodes[] = {
-    &kNotAChain,       &kTooFewJoints,   &kUnknownShape, &kAlreadyDriven,   &kAttributeExists,
-    &kValueDoesNotFit, &kNotSettable,    &kTypesDiffer,  &kNotATransform,   &kUnderItself,
-    &kWeightCount,     &kZeroLengthBone, &kRootExists,   &kNotMadeByCommand};
+    &kNotAChain,       &kTooFewJoints,   &kUnknownShape, &kAlreadyDriven,    &kAttributeExists,
+    &kValueDoesNotFit, &kNotSettable,    &kTypesDiffer,  &kNotATransform,    &kUnderItself,
+    &kWeightCount,     &kZeroLengthBone, &kRootExists,   &kNotMadeByCommand, &kSameAxis};
 
 }  // namespace rigc::modules::codes

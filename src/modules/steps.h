@@ -92,7 +92,8 @@ void hang(Builder& b, NodeId node, NodeId space, const math::Affine& frame);
 
 /// Colour parameter, or by side where it was left out: blue left, red right, yellow between.
 math::Vec3 side_color(const Builder& b, NodeId joint, std::string_view parameter);
-/// Points the shape of a control along its axis x, y or z, or (bone) along a direction in rig space.
+/// Points the shape of a control along its axis x, y or z, or (bone) along a direction in rig
+/// space.
 void face(const Builder& b, ControlSpec& spec, const std::string& axis, math::Vec3 bone);
 
 // --- driving ---

@@ -15,11 +15,12 @@ namespace {
 using catalog::ParameterType;
 using scene::NodeId;
 
-/// Nodes that a selector finds now, or none.
-std::vector<NodeId> found_now(const selector::Selector& selector,
-                              const traversal::Context& context) {
+/// Nodes that a selector finds now as seen from a joint, or none.
+std::vector<NodeId> found_now(const selector::Selector& selector, const traversal::Context& context,
+                              NodeId self) {
   Diagnostics quiet;
-  const auto found = traversal::resolve(selector, context, quiet);
+  const traversal::Context there{context.scene, context.index, context.global, self, {}};
+  const auto found = traversal::resolve(selector, there, quiet);
   return found ? found->nodes : std::vector<NodeId>{};
 }
 
@@ -30,7 +31,7 @@ class Forecaster {
     selector::Choice scope = choice;
     scope.made.reset();
     scope.kind = scope.attribute = scope.component = {};
-    scope_ = found_now({{scope}, false, {}}, context);
+    scope_ = found_now({{scope}, false, {}}, context, context.self);
   }
 
   bool would_make(const tags::TaggedJoint& holder, const tags::CommandTag& tag,
@@ -66,8 +67,7 @@ class Forecaster {
   /// The joints that a command's parameters name: it may make nodes for them.
   std::vector<NodeId> joint_arguments(const tags::TaggedJoint& holder, const tags::CommandTag& tag,
                                       const catalog::Descriptor& descriptor) const {
-    const traversal::Context there{context_.scene, context_.index, context_.global,
-                                   context_.index.joint(holder.key), {}};
+    const NodeId self = context_.index.joint(holder.key);
     std::vector<NodeId> joints;
     for (const catalog::Parameter& parameter : descriptor.parameters) {
       const Literal* value = tag.find(parameter.name);
@@ -77,7 +77,7 @@ class Forecaster {
         Diagnostics quiet;
         const auto selector = selector::parse(item.text, item.span, quiet);
         if (!selector) continue;
-        const auto found = found_now(*selector, there);
+        const auto found = found_now(*selector, context_, self);
         joints.insert(joints.end(), found.begin(), found.end());
       }
     }

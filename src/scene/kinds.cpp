@@ -42,6 +42,8 @@ constexpr auto kControl = joined(
          "What animators key: 1 translate, 2 rotate, 4 scale, added up."},
         {"opposite", Type::text, kData, kSingle, kFixed, 0,
          "Identity of the control on the other side."},
+        {"mirror", Type::numbers, kData, kSingle, kFixed, 0,
+         "Signs with which translations are copied to the opposite."},
     }));
 
 constexpr auto kConstraint = std::to_array<AttributeSpec>({

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Settings: parsing the command line's texts, and laying them over tags. Test: tests/tags/settings_test.cpp
+// Settings: parsing the command line's texts, and laying them over tags. Test:
+// tests/tags/settings_test.cpp
 #include "tags/settings.h"
 
 #include <fmt/format.h>
@@ -48,7 +49,8 @@ void check_feature(const TaggedSkeleton& skeleton, const Settings::Feature& sett
         switches.insert(feature.switches.begin(), feature.switches.end());
     }
   }
-  const std::string in = setting.group.empty() ? "" : fmt::format(" in the group {}", setting.group);
+  const std::string in =
+      setting.group.empty() ? "" : fmt::format(" in the group {}", setting.group);
   if (!setting.group.empty() && !groups.contains(setting.group))
     diagnostics.report(codes::kUnknownGroup, Place(),
                        fmt::format("there is no group \"{}\"", printable(setting.group, 60)),

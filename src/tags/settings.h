@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Settings: features, switches and groups that a build turns on or off, read from the command line's texts
-// and laid over a skeleton's tags. Test: tests/tags/settings_test.cpp
+// Settings: features, switches and groups that a build turns on or off, read from the command
+// line's texts and laid over a skeleton's tags. Test: tests/tags/settings_test.cpp
 #pragma once
 
 #include <optional>
@@ -14,16 +14,18 @@
 namespace rigc::tags {
 
 /// `[GROUP/]NAME[:SWITCH]=on|off`
-std::optional<Settings::Feature> parse_feature_setting(std::string_view text, Diagnostics& diagnostics);
+std::optional<Settings::Feature> parse_feature_setting(std::string_view text,
+                                                       Diagnostics& diagnostics);
 
 /// `GROUP=on|off`
 std::optional<std::pair<std::string, bool>> parse_group_setting(std::string_view text,
                                                                 Diagnostics& diagnostics);
 
-/// Sets `on` of features and commands. A feature tag is on when its feature and its switch are; the last
-/// setting that names it counts, one for a group before one for all. Where no setting names a feature itself,
-/// turning one of its switches on turns that part of it on. Commands on joints of a group that is off become
-/// off. Names that the skeleton does not have are errors; the skeleton is changed only without errors.
+/// Sets `on` of features and commands. A feature tag is on when its feature and its switch are; the
+/// last setting that names it counts, one for a group before one for all. Where no setting names a
+/// feature itself, turning one of its switches on turns that part of it on. Commands on joints of a
+/// group that is off become off. Names that the skeleton does not have are errors; the skeleton is
+/// changed only without errors.
 bool apply(TaggedSkeleton& skeleton, const Settings& settings, Diagnostics& diagnostics);
 
 /// Renames the rig: the global group of the skeleton and of every joint.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tags and the skeleton that carries them: what a template becomes, what a rig file stores, what the
-// command list is made from. Test: tests/tags/tags_test.cpp
+// Tags and the skeleton that carries them: what a template becomes, what a rig file stores, what
+// the command list is made from. Test: tests/tags/tags_test.cpp
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ namespace rigc::tags {
 
 struct Argument {
   std::string name;
-  Span span;               ///< of the name
+  Span span;  ///< of the name
   Literal value;
   bool operator==(const Argument& o) const { return name == o.name && value == o.value; }
 };
@@ -25,19 +25,20 @@ struct Argument {
 /// A module's name and its parameters, checked against the descriptor when they were read.
 struct CommandTag {
   std::string module;
-  std::string id;                      ///< stable id, unique on its joint
+  std::string id;  ///< stable id, unique on its joint
   std::string comment;
-  std::string stage;                   ///< empty: the descriptor's
+  std::string stage;  ///< empty: the descriptor's
   bool on = true;
-  int feature = -1;                    ///< index into TaggedJoint::features, -1: none
-  std::vector<Argument> with;          ///< selectors as texts
-  std::vector<std::string> was;        ///< earlier holders and ids, "<joint key>/<command id>", oldest first
+  int feature = -1;            ///< index into TaggedJoint::features, -1: none
+  std::vector<Argument> with;  ///< selectors as texts
+  std::vector<std::string>
+      was;  ///< earlier holders and ids, "<joint key>/<command id>", oldest first
   Span span;
   const Literal* find(std::string_view argument) const;
 };
 
 struct FeatureTag {
-  std::string name;                    ///< empty: only groups
+  std::string name;  ///< empty: only groups
   std::string kind;
   std::string switch_name;
   bool on = true;
@@ -47,22 +48,22 @@ struct FeatureTag {
 /// How a mirrored part's joint came about: modules mirror behaviour by it.
 struct Mirror {
   bool mirrored = false;
-  JointKey opposite;                   ///< the joint on the other side; uid 0: none
+  JointKey opposite;  ///< the joint on the other side; uid 0: none
 };
 
 struct TaggedJoint {
-  std::string name;                    ///< for people
+  std::string name;  ///< for people
   JointKey key;
-  std::vector<JointKey> was;           ///< earlier keys, oldest first
-  int parent = -1;                     ///< index into TaggedSkeleton::joints, smaller than its own
-  Identifiers ids;                     ///< global always set
-  math::Trs rest;                      ///< local rest transform, relative to the parent (roots: to the rig's space)
+  std::vector<JointKey> was;  ///< earlier keys, oldest first
+  int parent = -1;            ///< index into TaggedSkeleton::joints, smaller than its own
+  Identifiers ids;            ///< global always set
+  math::Trs rest;  ///< local rest transform, relative to the parent (roots: to the rig's space)
   bool optional = false;
   Mirror mirror;
   std::vector<FeatureTag> features;
-  std::vector<CommandTag> commands;    ///< top to bottom
-  int template_index = 0;              ///< into TaggedSkeleton::templates
-  int foreign_node = -1;               ///< glTF node of the model it was fitted to
+  std::vector<CommandTag> commands;  ///< top to bottom
+  int template_index = 0;            ///< into TaggedSkeleton::templates
+  int foreign_node = -1;             ///< glTF node of the model it was fitted to
   Span span;
 };
 
@@ -75,8 +76,8 @@ struct FeatureDeclaration {
 struct TemplateReference {
   std::string name;
   int version = 0;
-  std::string file;                    ///< as written by the user or a part's reference, never absolute
-  std::string digest;                  ///< 16 hex digits of the text's XXH3-64
+  std::string file;    ///< as written by the user or a part's reference, never absolute
+  std::string digest;  ///< 16 hex digits of the text's XXH3-64
 };
 
 struct NamedShape {
@@ -89,19 +90,19 @@ struct Character {
   math::Vec3 up{0, 1, 0};
   math::Vec3 left{1, 0, 0};
   math::Vec3 forward{0, 0, 1};
-  double height = 1;                   ///< extent of the joints along up
-  double unit = 1;                     ///< length in rig space of one metre of the template: scales sizes and lengths
+  double height = 1;  ///< extent of the joints along up
+  double unit = 1;  ///< length in rig space of one metre of the template: scales sizes and lengths
 };
 
 /// Joints parents first in document order; the input of the command list.
 struct TaggedSkeleton {
-  std::string name;                    ///< of the template
+  std::string name;  ///< of the template
   std::string global;
   std::vector<TaggedJoint> joints;
   std::vector<FeatureDeclaration> features;
-  std::vector<TemplateReference> templates;   ///< the main one first
+  std::vector<TemplateReference> templates;  ///< the main one first
   std::vector<std::pair<std::string, int>> module_pins;
-  std::vector<NamedShape> shapes;      ///< that templates bring
+  std::vector<NamedShape> shapes;  ///< that templates bring
   Character character;
   /// Rest matrix of a joint in rig space.
   math::Affine world(std::size_t joint) const;
@@ -112,9 +113,9 @@ struct TaggedSkeleton {
 /// Which features, switches and groups a build turns on or off, over what the template says.
 struct Settings {
   struct Feature {
-    std::string group;                 ///< local group; empty: all
+    std::string group;  ///< local group; empty: all
     std::string name;
-    std::string switch_name;           ///< empty: the feature itself
+    std::string switch_name;  ///< empty: the feature itself
     bool on = true;
   };
   std::vector<Feature> features;
@@ -124,19 +125,21 @@ struct Settings {
 
 /// A skeleton in somebody's file, as the fit sees it. Parents first is not promised.
 struct ForeignJoint {
-  int node = -1;                       ///< glTF node
-  int parent = -1;                     ///< index into ForeignSkeleton::joints
+  int node = -1;    ///< glTF node
+  int parent = -1;  ///< index into ForeignSkeleton::joints
   std::string name;
   bool in_skin = false;
-  math::Trs local;                     ///< the file's own node transform (as TRS)
-  math::Affine rest;                   ///< rest pose in rig space (space of the ancestor)
+  math::Trs local;    ///< the file's own node transform (as TRS)
+  math::Affine rest;  ///< rest pose in rig space (space of the ancestor)
 };
 
 struct ForeignSkeleton {
   std::vector<ForeignJoint> joints;
-  int ancestor = -1;                   ///< glTF node under which the rig's root goes: lowest common non-joint ancestor; -1: the scene
-  math::Affine ancestor_world;         ///< of that node, as the file stands
-  std::vector<std::pair<std::string, int>> humanoid;   ///< VRM humanoid bone -> index into joints; empty without
+  int ancestor = -1;  ///< glTF node under which the rig's root goes: lowest common non-joint
+                      ///< ancestor; -1: the scene
+  math::Affine ancestor_world;  ///< of that node, as the file stands
+  std::vector<std::pair<std::string, int>>
+      humanoid;  ///< VRM humanoid bone -> index into joints; empty without
   std::vector<std::string> notes;
 };
 

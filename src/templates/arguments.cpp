@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Arguments against declarations. Descriptors check types and ranges (catalog::mismatch); here come names,
-// selectors, versions and parameters. Test: tests/templates/arguments_test.cpp
+// Arguments against declarations. Descriptors check types and ranges (catalog::mismatch); here come
+// names, selectors, versions and parameters. Test: tests/templates/arguments_test.cpp
 #include "templates/arguments.h"
 
 #include <fmt/format.h>
@@ -49,8 +49,7 @@ bool contains_parameter(const Literal& value) {
 bool check_selector(const Parameter& parameter, const Literal& value, Diagnostics& diagnostics) {
   const auto selector = selector::parse(value.text, value.span, diagnostics);
   if (!selector) return false;
-  const bool plug =
-      parameter.type == ParameterType::plug || parameter.type == ParameterType::plugs;
+  const bool plug = parameter.type == ParameterType::plug || parameter.type == ParameterType::plugs;
   bool ok = true;
   for (const selector::Choice& choice : selector->choices) {
     if (plug && choice.attribute.empty()) {
@@ -87,10 +86,10 @@ bool check_argument(const catalog::Descriptor& descriptor, const Template& owner
                     tags::Argument& argument, Diagnostics& diagnostics) {
   const Parameter* parameter = declaration(descriptor, argument.name);
   if (!parameter) {
-    diagnostics.report(codes::kUnknownArgument, argument.span,
-                       fmt::format("{} has no parameter \"{}\"", descriptor.module,
-                                   printable(argument.name, 60)),
-                       suggest(argument.name, parameter_names(descriptor)));
+    diagnostics.report(
+        codes::kUnknownArgument, argument.span,
+        fmt::format("{} has no parameter \"{}\"", descriptor.module, printable(argument.name, 60)),
+        suggest(argument.name, parameter_names(descriptor)));
     return false;
   }
   if (contains_parameter(argument.value)) return check_declared(argument.value, owner, diagnostics);
@@ -105,6 +104,11 @@ int compare(const Literal& a, const Literal& b) {
 }
 
 }  // namespace
+
+bool is_selector(ParameterType type) {
+  return type == ParameterType::node || type == ParameterType::nodes ||
+         type == ParameterType::plug || type == ParameterType::plugs;
+}
 
 std::string_view parameter_name(const Literal& value) {
   if (value.kind != Literal::Kind::text || value.text.size() < 2 || value.text[0] != '$') return {};
@@ -169,35 +173,26 @@ void check_arguments(const catalog::Descriptor& descriptor, const Template& owne
 }
 
 bool check_value(const Parameter& parameter, const Literal& value, Diagnostics& diagnostics) {
+  const bool is_text = value.kind == Literal::Kind::text;
+  if (is_selector(parameter.type) && is_text) return check_selector(parameter, value, diagnostics);
+  if (parameter.type == ParameterType::expression && is_text)
+    return selector::parse_expression(value.text, value.span, diagnostics).has_value();
   if (const auto mismatch = catalog::mismatch(parameter, value)) {
     diagnostics.report(codes::kArgumentValue, mismatch->span, mismatch->message, mismatch->hint);
     return false;
   }
-  switch (parameter.type) {
-    case ParameterType::node:
-    case ParameterType::nodes:
-    case ParameterType::plug:
-    case ParameterType::plugs: {
-      if (value.kind != Literal::Kind::list) return check_selector(parameter, value, diagnostics);
-      bool ok = true;
-      for (const Literal& item : value.items) ok &= check_selector(parameter, item, diagnostics);
-      return ok;
-    }
-    case ParameterType::expression:
-      return value.kind != Literal::Kind::text ||
-             selector::parse_expression(value.text, value.span, diagnostics).has_value();
-    default:
-      break;
-  }
-  if ((parameter.name == "local" || parameter.name == "label") &&
-      parameter.type == ParameterType::text && !is_name(value.text)) {
-    diagnostics.report(codes::kArgumentValue, value.span,
-                       fmt::format("{}: \"{}\" is not a name", parameter.name,
-                                   printable(value.text, 60)),
-                       "names have letters, digits, `_` and `-`, and do not start with a digit or `-`");
+  bool ok = true;
+  if (is_selector(parameter.type))
+    for (const Literal& item : value.items) ok &= check_selector(parameter, item, diagnostics);
+  const bool names_identifier = parameter.name == "local" || parameter.name == "label";
+  if (names_identifier && parameter.type == ParameterType::text && !is_name(value.text)) {
+    diagnostics.report(
+        codes::kArgumentValue, value.span,
+        fmt::format("{}: \"{}\" is not a name", parameter.name, printable(value.text, 60)),
+        "names have letters, digits, `_` and `-`, and do not start with a digit or `-`");
     return false;
   }
-  return true;
+  return ok;
 }
 
 void to_metres(const Parameter& parameter, double metres_per_unit, Literal& value) {
@@ -220,18 +215,26 @@ bool holds(const Condition& condition, const Environment& environment) {
   if (found == environment.end()) return false;
   const Literal& value = found->second;
   using Operator = Condition::Operator;
-  const bool truth = value.kind == Literal::Kind::boolean ? value.flag
+  const bool truth = value.kind == Literal::Kind::boolean  ? value.flag
                      : value.kind == Literal::Kind::number ? value.number != 0
                                                            : !value.text.empty();
   switch (condition.op) {
-    case Operator::is_true: return truth;
-    case Operator::is_false: return !truth;
-    case Operator::equal: return compare(value, condition.value) == 0;
-    case Operator::not_equal: return compare(value, condition.value) != 0;
-    case Operator::less: return compare(value, condition.value) < 0;
-    case Operator::less_equal: return compare(value, condition.value) <= 0;
-    case Operator::greater: return compare(value, condition.value) > 0;
-    case Operator::greater_equal: return compare(value, condition.value) >= 0;
+    case Operator::is_true:
+      return truth;
+    case Operator::is_false:
+      return !truth;
+    case Operator::equal:
+      return compare(value, condition.value) == 0;
+    case Operator::not_equal:
+      return compare(value, condition.value) != 0;
+    case Operator::less:
+      return compare(value, condition.value) < 0;
+    case Operator::less_equal:
+      return compare(value, condition.value) <= 0;
+    case Operator::greater:
+      return compare(value, condition.value) > 0;
+    case Operator::greater_equal:
+      return compare(value, condition.value) >= 0;
   }
   return false;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Arguments against declarations: of commands against descriptors, of parts against `parameters:`; and the
-// values that `$name` stands for. Test: tests/templates/arguments_test.cpp
+// Arguments against declarations: of commands against descriptors, of parts against `parameters:`;
+// and the values that `$name` stands for. Test: tests/templates/arguments_test.cpp
 #pragma once
 
 #include <map>
@@ -18,22 +18,30 @@ using Environment = std::map<std::string, Literal, std::less<>>;
 /// The name in a text `$name`; empty where the value is anything else.
 std::string_view parameter_name(const Literal& value);
 
-/// Replaces every `$name` inside by its value, which keeps the place of the `$name`. True if there was any.
+/// Replaces every `$name` inside by its value, which keeps the place of the `$name`. True if there
+/// was any.
 bool substitute(Literal& value, const Environment& environment);
+
+/// Whether values are selectors: node, nodes, plug, plugs.
+bool is_selector(catalog::ParameterType type);
 
 /// Reports every `$name` inside that the template does not declare.
 bool check_declared(const Literal& value, const Template& owner, Diagnostics& diagnostics);
 
-/// The declaration of an argument: of the descriptor, or `name`, `local`, `label` where it makes nodes.
-const catalog::Parameter* declaration(const catalog::Descriptor& descriptor, std::string_view argument);
+/// The declaration of an argument: of the descriptor, or `name`, `local`, `label` where it makes
+/// nodes.
+const catalog::Parameter* declaration(const catalog::Descriptor& descriptor,
+                                      std::string_view argument);
 
-/// Checks all arguments of a command as written. Names of earlier versions (`changes:`) up to the pinned one become
-/// today's, lengths become metres. Values with `$name` are checked by check_value once they are known.
-void check_arguments(const catalog::Descriptor& descriptor, const Template& owner, tags::CommandTag& command,
-                     Diagnostics& diagnostics);
+/// Checks all arguments of a command as written. Names of earlier versions (`changes:`) up to the
+/// pinned one become today's, lengths become metres. Values with `$name` are checked by check_value
+/// once they are known.
+void check_arguments(const catalog::Descriptor& descriptor, const Template& owner,
+                     tags::CommandTag& command, Diagnostics& diagnostics);
 
 /// Type, range, choice, selector and expression syntax of one value.
-bool check_value(const catalog::Parameter& parameter, const Literal& value, Diagnostics& diagnostics);
+bool check_value(const catalog::Parameter& parameter, const Literal& value,
+                 Diagnostics& diagnostics);
 
 /// Lengths, and vectors in metres, from the file's unit.
 void to_metres(const catalog::Parameter& parameter, double metres_per_unit, Literal& value);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The joints that a chain becomes, whoever gives them their places. Test: tests/templates/place_test.cpp
+// The joints that a chain becomes, whoever gives them their places. Test:
+// tests/templates/place_test.cpp
 #pragma once
 
 #include <cstdint>
@@ -8,8 +9,8 @@
 
 namespace rigc::templates {
 
-/// The joint of a chain at `ordinal`, or a plain joint at 0, without rest and parent: the first carries the tags
-/// and the label, all carry the groups.
+/// The joint of a chain at `ordinal`, or a plain joint at 0, without rest and parent: the first
+/// carries the tags and the label, all carry the groups.
 tags::TaggedJoint joint_of(const ExpandedJoint& joint, std::uint32_t ordinal);
 
 /// Without the noise of computing: scales that are 1, lengths below a picometre.

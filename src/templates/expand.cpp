@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The driver of expanding, and how templates are joined: every use of a template adds its joints, then its
-// parts. Test: tests/templates/expand_test.cpp
+// The driver of expanding, and how templates are joined: every use of a template adds its joints,
+// then its parts. Test: tests/templates/expand_test.cpp
 #include "templates/expand.h"
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ std::optional<Expanded> Expander::run() {
   add_use(main_, nullptr, -1);
   collect_features();
   resolve_parents();
-  find_absent();
+  find_absent(diagnostics_.errors() == errors_before);
   if (diagnostics_.errors() != errors_before) return std::nullopt;
   assign_keys();
   pair_sides();

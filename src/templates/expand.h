@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Template -> Expanded: parts joined, parameters put in, names, groups, selectors and uids made final,
-// joints in order. Chains are still whole, so that place() and fit() can give them any count.
-// Test: tests/templates/expand_test.cpp
+// Template -> Expanded: parts joined, parameters put in, names, groups, selectors and uids made
+// final, joints in order. Chains are still whole, so that place() and fit() can give them any
+// count. Test: tests/templates/expand_test.cpp
 #pragma once
 
 #include <optional>
@@ -15,29 +15,30 @@ namespace rigc::templates {
 
 /// One use of a template; instance 0 is the main one.
 struct Instance {
-  int outer = -1;                  ///< the instance that holds the part
-  std::string path;                ///< `arm_l/hand`; empty for the main template
-  math::Vec3 at;                   ///< origin in the outer instance's model space
+  int outer = -1;    ///< the instance that holds the part
+  std::string path;  ///< `arm_l/hand`; empty for the main template
+  math::Vec3 at;     ///< origin in the outer instance's model space
   math::Quat rotation;
   double size = 1;
-  std::optional<int> mirror;       ///< axis of the outer model space
+  std::optional<int> mirror;  ///< axis of the outer model space
 };
 
 struct ExpandedJoint {
-  tags::TaggedJoint tagged;        ///< rest is not set; of a chain: its first joint; parent indexes Expanded::joints
-  Placement placement;             ///< in the instance's model space
-  std::optional<Chain> chain;      ///< its count is final
+  tags::TaggedJoint
+      tagged;  ///< rest is not set; of a chain: its first joint; parent indexes Expanded::joints
+  Placement placement;         ///< in the instance's model space
+  std::optional<Chain> chain;  ///< its count is final
   bool helper = false;
-  int toward = -1;                 ///< the joint that `orient` aims at; -1: none
-  int opposite = -1;               ///< index of the joint on the other side
+  int toward = -1;    ///< the joint that `orient` aims at; -1: none
+  int opposite = -1;  ///< index of the joint on the other side
   int instance = 0;
-  std::size_t ordinal_in_template = 0;   ///< index into the joints of the instance's template
+  std::size_t ordinal_in_template = 0;  ///< index into the joints of the instance's template
 };
 
 struct Expanded {
-  tags::TaggedSkeleton skeleton;   ///< everything but joints and character
+  tags::TaggedSkeleton skeleton;  ///< everything but joints and character
   std::vector<Instance> instances;
-  std::vector<ExpandedJoint> joints;   ///< parents first, in document order
+  std::vector<ExpandedJoint> joints;  ///< parents first, in document order
 };
 
 std::optional<Expanded> expand(const Template& main, Library& library,

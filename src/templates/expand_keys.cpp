@@ -16,7 +16,8 @@ namespace {
 constexpr std::size_t kMostEarlierKeys = 64;
 
 /// Earlier names first, then today's: the earliest gives the key, so that a rename keeps it.
-std::vector<std::string> with_earlier(const std::vector<std::string>& was, const std::string& name) {
+std::vector<std::string> with_earlier(const std::vector<std::string>& was,
+                                      const std::string& name) {
   std::vector<std::string> names = was;
   names.push_back(name);
   return names;
@@ -32,7 +33,8 @@ std::uint64_t uid_of(const std::string& template_name, const std::string& path,
   return hash64(bytes);
 }
 
-/// An explicit uid as it stands, or, in a part, hashed with the part's path: the part may be used twice.
+/// An explicit uid as it stands, or, in a part, hashed with the part's path: the part may be used
+/// twice.
 std::uint64_t uid_of(std::uint64_t written, const std::string& path) {
   if (path.empty()) return written;
   std::string bytes = path;
@@ -93,11 +95,11 @@ void Expander::assign_keys() {
         for (const std::string& name : names) add(uid_of(template_name, own_path, name));
     const auto [other, fresh] = taken.emplace(tagged.key.uid, &joint);
     if (!fresh)
-      diagnostics_.report(codes::kUidTwice, source.span,
-                          fmt::format("the joints {} and {} have the same uid {}",
-                                      other->second->result.tagged.name, tagged.name,
-                                      hex16(tagged.key.uid)),
-                          "write a `uid:` of 16 hexadecimal digits for the newer one");
+      diagnostics_.report(
+          codes::kUidTwice, source.span,
+          fmt::format("the joints {} and {} have the same uid {}",
+                      other->second->result.tagged.name, tagged.name, hex16(tagged.key.uid)),
+          "write a `uid:` of 16 hexadecimal digits for the newer one");
   }
 }
 
@@ -110,8 +112,9 @@ std::string Expander::earlier_holder(const RawJoint& joint, const std::string& w
   const std::string template_then = main_.was.empty() ? main_.name : main_.was.front();
   std::uint64_t uid = uid_of(template_then, path_then, name);
   for (const Joint& candidate : use.source->joints) {
-    const bool same = candidate.name == name || std::find(candidate.was.begin(), candidate.was.end(),
-                                                          name) != candidate.was.end();
+    const bool same =
+        candidate.name == name ||
+        std::find(candidate.was.begin(), candidate.was.end(), name) != candidate.was.end();
     if (!same) continue;
     uid = candidate.uid ? uid_of(*candidate.uid, path_then)
                         : uid_of(template_then, path_then,
@@ -148,7 +151,8 @@ void Expander::pair_uses(int a, int b) {
     if (left.parts[i] >= 0 && right.parts[i] >= 0) pair_uses(left.parts[i], right.parts[i]);
 }
 
-/// Opposite are the joints of two uses of a part, one of them mirrored, and joints whose names differ by a side.
+/// Opposite are the joints of two uses of a part, one of them mirrored, and joints whose names
+/// differ by a side.
 void Expander::pair_sides() {
   for (const Use& outer : uses_) {
     std::vector<bool> paired(outer.parts.size(), false);

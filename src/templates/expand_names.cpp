@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Names while expanding: what handles mean in each template, how local groups are called from outside, whose
-// child a joint is. Test: tests/templates/expand_test.cpp
+// Names while expanding: what handles mean in each template, how local groups are called from
+// outside, whose child a joint is. Test: tests/templates/expand_test.cpp
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -45,14 +45,15 @@ void Expander::register_handles(int index) {
   std::string name = joint.source->name;
   std::string local = joint.source->ids.local;
   const std::string& label = joint.source->ids.label;
+  Span place = joint.source->span;
   for (int at = joint.use; at >= 0;) {
     Use& use = uses_[static_cast<std::size_t>(at)];
     const auto [other, fresh] = use.handles.names.emplace(name, index);
     if (!fresh) {
-      diagnostics_.report(codes::kJointNameTaken, joint.source->span,
-                          fmt::format("there is a joint \"{}\" already in the template {}", name,
-                                      use.source->name),
-                          "call the joint or the part (`as`) something else");
+      diagnostics_.report(
+          codes::kJointNameTaken, place,
+          fmt::format("there is a joint \"{}\" already in the template {}", name, use.source->name),
+          "call the joint or the part (`as`) something else");
       return;
     }
     if (!label.empty()) {
@@ -60,6 +61,7 @@ void Expander::register_handles(int index) {
       if (!local.empty()) use.handles.add_label(local + "." + label, index);
     }
     if (use.part) {
+      place = use.part->as_span;
       name = use.part->as + "_" + name;
       local = group_in_outer(use, local);
     }
@@ -67,15 +69,16 @@ void Expander::register_handles(int index) {
   }
 }
 
-/// The joint that a word means in a template; reports what it cannot mean. kAbsent without a report.
+/// The joint that a word means in a template; reports what it cannot mean. kAbsent without a
+/// report.
 int Expander::resolve(int use, const std::string& word, const Span& span, const char* key) {
   const Use& scope = uses_[static_cast<std::size_t>(use)];
   const int found = scope.handles.find(word);
   if (found == kAmbiguous) {
-    diagnostics_.report(codes::kAmbiguousLabel, span,
-                        fmt::format("{}: several joints have the label \"{}\"", key,
-                                    printable(word, 60)),
-                        "name the joint, or write GROUP.LABEL");
+    diagnostics_.report(
+        codes::kAmbiguousLabel, span,
+        fmt::format("{}: several joints have the label \"{}\"", key, printable(word, 60)),
+        "name the joint, or write GROUP.LABEL");
   } else if (found == kUnknown) {
     std::vector<std::string> names;
     if (diagnostics_.errors() < 100)
@@ -110,7 +113,7 @@ void Expander::resolve_parents() {
 }
 
 /// A joint below an absent one is absent too. Circles (through parts) are errors.
-void Expander::find_absent() {
+void Expander::find_absent(bool report_none_left) {
   enum class Mark : std::uint8_t { fresh, open, done };
   std::vector<Mark> marks(joints_.size(), Mark::fresh);
   bool left = false;
@@ -139,7 +142,7 @@ void Expander::find_absent() {
       left |= !absent;
     }
   }
-  if (!left)
+  if (!left && report_none_left)
     diagnostics_.report(codes::kNoJointsLeft, main_.span,
                         "conditions take away every joint of the template");
 }

@@ -36,8 +36,7 @@ bool Expander::bind_parameters(int index) {
   bool ok = true;
   if (use.part) {
     const Use& outer = uses_[static_cast<std::size_t>(use.outer)];
-    for (const tags::Argument& argument : use.part->with)
-      ok &= bind_argument(use, outer, argument);
+    for (const tags::Argument& argument : use.part->with) ok &= bind_argument(use, outer, argument);
     check_groups(use);
   }
   for (const catalog::Parameter& parameter : use.source->parameters) {
@@ -47,10 +46,10 @@ bool Expander::bind_parameters(int index) {
       continue;
     }
     if (!ok) continue;  // its value was given and refused
-    diagnostics_.report(codes::kMissingArgument, use.part ? use.part->span : use.source->span,
-                        fmt::format("the template {} needs the parameter \"{}\"", use.source->name,
-                                    parameter.name),
-                        use.part ? "write it in `with:`" : "it is made to be a part of others");
+    diagnostics_.report(
+        codes::kMissingArgument, use.part ? use.part->span : use.source->span,
+        fmt::format("the template {} needs the parameter \"{}\"", use.source->name, parameter.name),
+        use.part ? "write it in `with:`" : "it is made to be a part of others");
     ok = false;
   }
   return ok;
@@ -63,10 +62,10 @@ void Expander::check_groups(const Use& use) {
     const bool bound = std::any_of(part.groups.begin(), part.groups.end(),
                                    [&](const auto& pair) { return pair.first == need; });
     if (bound) continue;
-    diagnostics_.report(codes::kUnboundGroup, part.groups_span,
-                        fmt::format("the part {} needs the group \"{}\"", use.source->name, need),
-                        fmt::format("say which group of this template that is: groups: {{{}: ...}}",
-                                    need));
+    diagnostics_.report(
+        codes::kUnboundGroup, part.groups_span,
+        fmt::format("the part {} needs the group \"{}\"", use.source->name, need),
+        fmt::format("say which group of this template that is: groups: {{{}: ...}}", need));
   }
   for (const auto& pair : part.groups) {
     if (std::find(needs.begin(), needs.end(), pair.first) != needs.end()) continue;

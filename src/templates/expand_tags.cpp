@@ -11,17 +11,6 @@
 #include "templates/expander.h"
 
 namespace rigc::templates {
-namespace {
-
-using catalog::ParameterType;
-
-bool is_selector(ParameterType type) {
-  return type == ParameterType::node || type == ParameterType::nodes ||
-         type == ParameterType::plug || type == ParameterType::plugs;
-}
-
-}  // namespace
-
 void Expander::add_tags(RawJoint& joint) {
   const Use& use = uses_[static_cast<std::size_t>(joint.use)];
   tags::TaggedJoint& tagged = joint.result.tagged;
@@ -73,11 +62,11 @@ void Expander::rename(int use, const catalog::Parameter& parameter, Literal& val
   }
   if (value.kind != Literal::Kind::text) return;
   const Use& owner = uses_[static_cast<std::size_t>(use)];
-  if (parameter.type == ParameterType::text && owner.part) {
+  if (parameter.type == catalog::ParameterType::text && owner.part) {
     if (parameter.name == "local") value.text = final_group(use, value.text);
     if (parameter.name == "name") value.text = owner.prefix + value.text;
   }
-  const bool expression = parameter.type == ParameterType::expression;
+  const bool expression = parameter.type == catalog::ParameterType::expression;
   if (!is_selector(parameter.type) && !expression) return;
   if (!owner.part && value.text.find(':') == std::string::npos) return;
 
@@ -121,7 +110,8 @@ void Expander::check_declared_outside(const Use& use, const tags::FeatureTag& ta
                       suggest(tag.name, names));
 }
 
-/// One catalogue for the rig, outer templates first; then each tag gets its kind and default from it.
+/// One catalogue for the rig, outer templates first; then each tag gets its kind and default from
+/// it.
 void Expander::collect_features() {
   std::vector<tags::FeatureDeclaration>& all = skeleton_.features;
   const auto find = [&](const std::string& name) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the steps of expanding share: the uses of templates, with their handles and groups, and the joints on
-// their way to ExpandedJoint. Only for the expand*.cpp of this folder. Test: tests/templates/expand_test.cpp
+// What the steps of expanding share: the uses of templates, with their handles and groups, and the
+// joints on their way to ExpandedJoint. Only for the expand*.cpp of this folder. Test:
+// tests/templates/expand_test.cpp
 #pragma once
 
 #include <set>
@@ -14,12 +15,13 @@
 
 namespace rigc::templates {
 
-inline constexpr int kRoot = -1;        ///< hangs under nothing
-inline constexpr int kAbsent = -2;      ///< taken away by a condition
-inline constexpr int kAmbiguous = -3;   ///< a label of several joints
+inline constexpr int kRoot = -1;       ///< hangs under nothing
+inline constexpr int kAbsent = -2;     ///< taken away by a condition
+inline constexpr int kAmbiguous = -3;  ///< a label of several joints
 inline constexpr int kUnknown = -4;
 
-/// What a template's words mean: names, labels and GROUP.LABEL of its joints and of its parts' joints.
+/// What a template's words mean: names, labels and GROUP.LABEL of its joints and of its parts'
+/// joints.
 struct Handles {
   std::unordered_map<std::string, int> names;
   std::unordered_map<std::string, int> labels;
@@ -31,16 +33,16 @@ struct Handles {
 /// One use of a template; the same index as its Instance.
 struct Use {
   const Template* source = nullptr;
-  const Part* part = nullptr;      ///< null: the main template
+  const Part* part = nullptr;  ///< null: the main template
   int outer = -1;
   std::size_t depth = 0;
-  std::string prefix;              ///< of joint names: `arm_l_hand_`
+  std::string prefix;  ///< of joint names: `arm_l_hand_`
   Environment environment;
   Handles handles;
   int attach = kRoot;
-  std::vector<int> joints;         ///< by index into source->joints; kAbsent
-  std::vector<int> parts;          ///< by index into source->parts: uses; kAbsent
-  bool mirrored = false;           ///< as seen in the main template's space
+  std::vector<int> joints;  ///< by index into source->joints; kAbsent
+  std::vector<int> parts;   ///< by index into source->parts: uses; kAbsent
+  bool mirrored = false;    ///< as seen in the main template's space
   int template_index = 0;
 };
 
@@ -49,7 +51,7 @@ struct RawJoint {
   const Joint* source = nullptr;
   int use = 0;
   int parent = kRoot;
-  std::vector<bool> on_written;    ///< for each feature tag
+  std::vector<bool> on_written;  ///< for each feature tag
 };
 
 class Expander {
@@ -79,7 +81,7 @@ class Expander {
   std::string final_group(int use, std::string local) const;
   void resolve_parents();
   int resolve(int use, const std::string& word, const Span& span, const char* key);
-  void find_absent();
+  void find_absent(bool report_none_left);
 
   // expand_tags.cpp
   void add_tags(RawJoint& joint);
@@ -109,7 +111,7 @@ class Expander {
   std::vector<RawJoint> joints_;
   std::vector<const Template*> templates_;
   tags::TaggedSkeleton skeleton_;
-  std::size_t joint_count_ = 0;    ///< with all joints of chains
+  std::size_t joint_count_ = 0;  ///< with all joints of chains
   bool full_ = false;
   /// Tags that were reported: a part that is used twice has its mistakes once.
   std::set<std::pair<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>>> undeclared_;

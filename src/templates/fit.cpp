@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The driver of fitting, and the skeleton that comes out: the model's hierarchy with the template's tags.
-// Test: tests/templates/fit_test.cpp
+// The driver of fitting, and the skeleton that comes out: the model's hierarchy with the template's
+// tags. Test: tests/templates/fit_test.cpp
 #include "templates/fit.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ using math::Vec3;
 
 bool is_forest(const tags::ForeignSkeleton& model) {
   const int count = static_cast<int>(model.joints.size());
-  std::vector<int> state(model.joints.size(), 0);   // 0 not seen, 1 on the way, 2 ends at a root
+  std::vector<int> state(model.joints.size(), 0);  // 0 not seen, 1 on the way, 2 ends at a root
   for (int start = 0; start < count; ++start) {
     int at = start;
     while (at >= 0 && at < count && state[static_cast<std::size_t>(at)] == 0) {
@@ -38,8 +38,12 @@ class Fitter {
   Fitter(const Expanded& expanded, const tags::ForeignSkeleton& model,
          const tags::TaggedSkeleton& placed, const Matching& matching, const Measured& measured,
          Diagnostics& diagnostics)
-      : expanded_(expanded), model_(model), placed_(placed), matching_(matching),
-        measured_(measured), diagnostics_(diagnostics) {}
+      : expanded_(expanded),
+        model_(model),
+        placed_(placed),
+        matching_(matching),
+        measured_(measured),
+        diagnostics_(diagnostics) {}
   tags::TaggedSkeleton run();
 
  private:
@@ -60,14 +64,14 @@ class Fitter {
   const Measured& measured_;
   Diagnostics& diagnostics_;
   struct Role {
-    int joint = -1;                ///< expanded joint that the bone stands for
+    int joint = -1;  ///< expanded joint that the bone stands for
     std::uint32_t ordinal = 0;
   };
-  std::vector<Role> roles_;        ///< by bone
-  std::vector<bool> included_;     ///< by bone
-  std::vector<int> bone_index_;    ///< by bone: index in the result
-  std::vector<int> joint_index_;   ///< by expanded joint: index of its last joint in the result
-  std::vector<Affine> rest_;       ///< by index in the result, rig space
+  std::vector<Role> roles_;       ///< by bone
+  std::vector<bool> included_;    ///< by bone
+  std::vector<int> bone_index_;   ///< by bone: index in the result
+  std::vector<int> joint_index_;  ///< by expanded joint: index of its last joint in the result
+  std::vector<Affine> rest_;      ///< by index in the result, rig space
   double worst_shear_ = 1e-4;
   std::string sheared_;
   tags::TaggedSkeleton out_;
@@ -85,12 +89,13 @@ void Fitter::find_included() {
   for (std::size_t i = 0; i < count; ++i)
     included_[i] = model_.joints[i].in_skin || roles_[i].joint >= 0;
   const std::vector<bool> ends = included_;
-  std::vector<bool> walked(count, false);   // every bone is walked over once
+  std::vector<bool> walked(count, false);  // every bone is walked over once
   for (std::size_t i = 0; i < count; ++i) {
     if (!ends[i]) continue;
     std::vector<std::size_t> between;
     int at = model_.joints[i].parent;
-    while (at >= 0 && !walked[static_cast<std::size_t>(at)] && !ends[static_cast<std::size_t>(at)]) {
+    while (at >= 0 && !walked[static_cast<std::size_t>(at)] &&
+           !ends[static_cast<std::size_t>(at)]) {
       walked[static_cast<std::size_t>(at)] = true;
       between.push_back(static_cast<std::size_t>(at));
       at = model_.joints[static_cast<std::size_t>(at)].parent;
@@ -133,9 +138,9 @@ void Fitter::add_bone(int bone) {
     joint.parent = parent >= 0 && included_[static_cast<std::size_t>(parent)]
                        ? bone_index_[static_cast<std::size_t>(parent)]
                        : -1;
-    const Affine local = joint.parent < 0
-                             ? foreign.rest
-                             : inverse(rest_[static_cast<std::size_t>(joint.parent)]) * foreign.rest;
+    const Affine local =
+        joint.parent < 0 ? foreign.rest
+                         : inverse(rest_[static_cast<std::size_t>(joint.parent)]) * foreign.rest;
     if (const double shear = math::shear(local); shear > worst_shear_) {
       worst_shear_ = shear;
       sheared_ = joint.name;
@@ -171,11 +176,11 @@ int Fitter::matched_below(std::size_t index) const {
 
 /// Rest of an expanded joint in the template's own proportions.
 Affine Fitter::placed_world(std::size_t index) const {
-  return placed_.world(
-      static_cast<std::size_t>(placed_.find(expanded_.joints[index].tagged.key)));
+  return placed_.world(static_cast<std::size_t>(placed_.find(expanded_.joints[index].tagged.key)));
 }
 
-/// As far from its anchor as in the template: the joint above, else the one below, but then as high above ground.
+/// As far from its anchor as in the template: the joint above, else the one below, but then as high
+/// above ground.
 Vec3 Fitter::helper_position(std::size_t index) const {
   const tags::Character& character = measured_.character;
   const auto in_rig = [&](Vec3 metres) {
@@ -205,7 +210,8 @@ void Fitter::add_helper(std::size_t index) {
   joint.parent = above < 0 ? -1 : joint_index_[static_cast<std::size_t>(above)];
   const math::Mat3 axes{character.left, character.up, cross(character.left, character.up)};
   const Affine own = placed_world(index);
-  const Affine rest{math::orthonormal(axes) * math::orthonormal(own.linear), helper_position(index)};
+  const Affine rest{math::orthonormal(axes) * math::orthonormal(own.linear),
+                    helper_position(index)};
   const Affine local =
       joint.parent < 0 ? rest : inverse(rest_[static_cast<std::size_t>(joint.parent)]) * rest;
   joint.rest = tidy(decompose(local));
@@ -220,7 +226,7 @@ void Fitter::set_opposites() {
     const int other = expanded_.joints[i].opposite;
     if (other < 0) continue;
     const auto other_index = static_cast<std::size_t>(other);
-    const std::size_t count = matching_.has(other_index) ? matching_.bones[other_index].size()
+    const std::size_t count = matching_.has(other_index)       ? matching_.bones[other_index].size()
                               : joint_index_[other_index] >= 0 ? 1
                                                                : 0;
     for (std::size_t k = count; k < matching_.bones[i].size(); ++k) {
@@ -259,7 +265,8 @@ std::optional<tags::TaggedSkeleton> fit(const Expanded& expanded,
                                         FitReport& report, Diagnostics& diagnostics) {
   report.map = map.name;
   if (!is_forest(model)) {
-    diagnostics.report(codes::kBadModel, Place(), "the joints of the model's skeleton do not form a forest");
+    diagnostics.report(codes::kBadModel, Place(),
+                       "the joints of the model's skeleton do not form a forest");
     return std::nullopt;
   }
   const auto placed = place(expanded, diagnostics);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Matching: bones for the joints that a map names, single joints first, then chains along the model's hierarchy.
-// Test: tests/templates/fit_test.cpp
+// Matching: bones for the joints that a map names, single joints first, then chains along the
+// model's hierarchy. Test: tests/templates/fit_test.cpp
 #include "templates/fit_match.h"
 
 #include <fmt/format.h>
@@ -18,9 +18,14 @@ class Matcher {
  public:
   Matcher(const Expanded& expanded, const tags::ForeignSkeleton& model, const Map& map,
           FitReport& report, Diagnostics& diagnostics)
-      : expanded_(expanded), model_(model), names_(map, model), report_(report),
-        diagnostics_(diagnostics), taken_(model.joints.size(), -1) {
-    for (const MapEntry& entry : map.entries) entries_.emplace(std::pair(entry.local, entry.label), &entry);
+      : expanded_(expanded),
+        model_(model),
+        names_(map, model),
+        report_(report),
+        diagnostics_(diagnostics),
+        taken_(model.joints.size(), -1) {
+    for (const MapEntry& entry : map.entries)
+      entries_.emplace(std::pair(entry.local, entry.label), &entry);
     result_.bones.resize(expanded.joints.size());
   }
   std::optional<Matching> run();
@@ -41,7 +46,7 @@ class Matcher {
   FitReport& report_;
   Diagnostics& diagnostics_;
   std::map<std::pair<std::string, std::string>, const MapEntry*> entries_;
-  std::vector<int> taken_;         ///< for each bone: the expanded joint that has it, or -1
+  std::vector<int> taken_;  ///< for each bone: the expanded joint that has it, or -1
   Matching result_;
 };
 
@@ -74,13 +79,15 @@ void Matcher::match_joint(std::size_t index, const MapEntry& entry) {
   if (bone >= 0)
     result_.bones[index] = {bone};
   else if (was_taken)
-    diagnostics_.report(codes::kBoneTwice, entry.span,
-                        fmt::format("the bone for {} is another joint's already",
-                                    expanded_.joints[index].tagged.name),
-                        fmt::format("the map names {}", printable(join(entry.bones.front(), ", "), 200)));
+    diagnostics_.report(
+        codes::kBoneTwice, entry.span,
+        fmt::format("the bone for {} is another joint's already",
+                    expanded_.joints[index].tagged.name),
+        fmt::format("the map names {}", printable(join(entry.bones.front(), ", "), 200)));
 }
 
-/// From `first` down to `last`, without bones of other joints; empty where `last` does not hang below `first`.
+/// From `first` down to `last`, without bones of other joints; empty where `last` does not hang
+/// below `first`.
 std::vector<int> Matcher::path(int first, int last, std::size_t joint) const {
   std::vector<int> bones;
   for (int at = last; at >= 0; at = model_.joints[static_cast<std::size_t>(at)].parent) {
@@ -153,12 +160,15 @@ void Matcher::check_hierarchy(std::size_t index) {
   const int bone = result_.bones[index].front();
   for (int at = bone; at >= 0; at = model_.joints[static_cast<std::size_t>(at)].parent)
     if (std::find(upper.begin(), upper.end(), at) != upper.end()) return;
-  const auto name = [&](int joint) { return printable(model_.joints[static_cast<std::size_t>(joint)].name, 60); };
-  diagnostics_.report(codes::kHierarchyDiffers, expanded_.joints[index].tagged.span,
-                      fmt::format("the bone {} does not hang below {}, as {} does below {}", name(bone),
-                                  name(upper.back()), expanded_.joints[index].tagged.name,
-                                  expanded_.joints[static_cast<std::size_t>(above)].tagged.name),
-                      "controls follow the joints' order, the model keeps its own");
+  const auto name = [&](int joint) {
+    return printable(model_.joints[static_cast<std::size_t>(joint)].name, 60);
+  };
+  diagnostics_.report(
+      codes::kHierarchyDiffers, expanded_.joints[index].tagged.span,
+      fmt::format("the bone {} does not hang below {}, as {} does below {}", name(bone),
+                  name(upper.back()), expanded_.joints[index].tagged.name,
+                  expanded_.joints[static_cast<std::size_t>(above)].tagged.name),
+      "controls follow the joints' order, the model keeps its own");
 }
 
 void Matcher::fill_report() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Measuring: a least-squares map from the template's left and up to where the matched bones are in the world.
-// There, not in rig space, a character is never mirrored, so that left x up is forward.
+// Measuring: a least-squares map from the template's left and up to where the matched bones are in
+// the world. There, not in rig space, a character is never mirrored, so that left x up is forward.
 // Test: tests/templates/fit_test.cpp
 #include <fmt/format.h>
 
@@ -16,13 +16,13 @@ namespace {
 
 using math::Vec3;
 
-constexpr double kSnapLeft = 0.9994;   // cosine of 2 degrees: left is measured well, from pairs
-constexpr double kSnapUp = 0.9659;     // of 15 degrees: a spine leans
+constexpr double kSnapLeft = 0.9994;  // cosine of 2 degrees: left is measured well, from pairs
+constexpr double kSnapUp = 0.9659;    // of 15 degrees: a spine leans
 constexpr double kMostAsymmetry = 0.02;
 
 struct Sample {
-  Vec3 own;      ///< in the template, metres
-  Vec3 rig;      ///< in the model's rig space
+  Vec3 own;  ///< in the template, metres
+  Vec3 rig;  ///< in the model's rig space
   Vec3 world;
 };
 
@@ -68,8 +68,7 @@ std::pair<Vec3, Vec3> regress(const std::vector<Sample>& samples) {
     y = y + world * own.y;
   }
   const double determinant = xx * yy - xy * xy;
-  if (determinant > 1e-6 * (xx + yy) * (xx + yy))
-    return {x * yy - y * xy, y * xx - x * xy};
+  if (determinant > 1e-6 * (xx + yy) * (xx + yy)) return {x * yy - y * xy, y * xx - x * xy};
   if (xx > yy) return {x, {}};
   return {{}, y};
 }
@@ -146,12 +145,12 @@ void check_symmetry(const Expanded& expanded, const tags::ForeignSkeleton& model
     report.asymmetry = {bone(a), bone(b), distance, distance / report.height_metres};
   }
   if (report.asymmetry->share <= kMostAsymmetry) return;
-  diagnostics.report(codes::kAsymmetric, Place(),
-                     fmt::format("{} is {:.0f} mm ({:.1f} % of the height) from the mirror image of {}",
-                                 printable(report.asymmetry->opposite, 60),
-                                 report.asymmetry->metres * 1000, report.asymmetry->share * 100,
-                                 printable(report.asymmetry->joint, 60)),
-                     "if the rest pose is a frame of a clip, choose another with --rest");
+  diagnostics.report(
+      codes::kAsymmetric, Place(),
+      fmt::format("{} is {:.0f} mm ({:.1f} % of the height) from the mirror image of {}",
+                  printable(report.asymmetry->opposite, 60), report.asymmetry->metres * 1000,
+                  report.asymmetry->share * 100, printable(report.asymmetry->joint, 60)),
+      "if the rest pose is a frame of a clip, choose another with --rest");
 }
 
 }  // namespace
@@ -185,8 +184,8 @@ Measured measure(const Expanded& expanded, const tags::TaggedSkeleton& placed,
   const double own_height = own.second - own.first;
   const double rig_height = rig.second - rig.first;
   // Without two joints at different heights, a metre of the template is a metre of the world.
-  out.character.unit = own_height > 1e-6 && rig_height > 0 ? rig_height / own_height
-                                                           : length(to_rig * up);
+  out.character.unit =
+      own_height > 1e-6 && rig_height > 0 ? rig_height / own_height : length(to_rig * up);
   out.character.height = rig_height > 0 ? rig_height : out.character.unit;
   check_symmetry(expanded, model, matching, left, report, diagnostics);
   return out;

@@ -69,8 +69,7 @@ const Template* Library::open_part(const Part& part, const Template& outer,
     confined |= path.has_value();
     if (!path || !file_exists(*path)) continue;
     const bool beside = i == 0;
-    const std::string shown =
-        beside && outer.folder.empty() ? file : join_path(places[i], file);
+    const std::string shown = beside && outer.folder.empty() ? file : join_path(places[i], file);
     return read_once(*path, shown, part.reference, diagnostics);
   }
   if (confined)

@@ -15,8 +15,8 @@
 
 namespace rigc::templates {
 
-/// Folders of templates, in the order in which they are searched: those given, RIGC_TEMPLATES (a list with
-/// colons), the data folder's `templates`.
+/// Folders of templates, in the order in which they are searched: those given, RIGC_TEMPLATES (a
+/// list with colons), the data folder's `templates`.
 std::vector<std::string> template_folders(const std::vector<std::string>& given);
 
 /// One library serves one Diagnostics: the spans of what it read point into its sources.
@@ -25,7 +25,8 @@ class Library {
   Library(std::vector<std::string> folders, const catalog::Catalogue& catalogue)
       : folders_(std::move(folders)), catalogue_(catalogue) {}
 
-  /// A path to a file, or a name that is looked for in the folders. The result lives as long as the library.
+  /// A path to a file, or a name that is looked for in the folders. The result lives as long as the
+  /// library.
   const Template* open(const std::string& path_or_name, Diagnostics& diagnostics);
 
   /// A part: relative to the folder of `outer`, then in the folders; never outside of them.
@@ -42,7 +43,8 @@ class Library {
 
   std::vector<std::string> folders_;
   const catalog::Catalogue& catalogue_;
-  std::map<std::string, std::unique_ptr<Template>> read_;   ///< by path; null: it had errors, which were reported then
+  std::map<std::string, std::unique_ptr<Template>>
+      read_;  ///< by path; null: it had errors, which were reported then
 };
 
 }  // namespace rigc::templates

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Maps: reading, finding, detecting, and the comparison of bone names. Test: tests/templates/map_test.cpp
+// Maps: reading, finding, detecting, and the comparison of bone names. Test:
+// tests/templates/map_test.cpp
 #include "templates/map.h"
 
 #include <fmt/format.h>
@@ -26,7 +27,8 @@ std::string folded(std::string_view text) {
   return out;
 }
 
-/// How many characters at the begin of `text` the pattern stands for; nothing if it does not fit there.
+/// How many characters at the begin of `text` the pattern stands for; nothing if it does not fit
+/// there.
 std::optional<std::size_t> fits_begin(std::string_view text, std::string_view pattern) {
   std::size_t at = 0;
   for (const char c : pattern) {
@@ -82,9 +84,9 @@ void read_entry(const yaml::Node::Entry& entry, Map& map, Diagnostics& diagnosti
   if (dot != std::string::npos) read.label = entry.key.substr(dot + 1);
   const bool named = is_name(read.local) && (dot == std::string::npos || is_name(read.label));
   if (!named) {
-    diagnostics.report(codes::kBadMapEntry, entry.key_span,
-                       fmt::format("\"{}\" is neither GROUP.LABEL nor GROUP",
-                                   printable(entry.key, 60)));
+    diagnostics.report(
+        codes::kBadMapEntry, entry.key_span,
+        fmt::format("\"{}\" is neither GROUP.LABEL nor GROUP", printable(entry.key, 60)));
     return;
   }
   if (read.label.empty() && entry.value.is_sequence()) {
@@ -211,7 +213,8 @@ std::optional<Map> read_map(std::uint32_t file, Diagnostics& diagnostics) {
 std::optional<Map> find_map(const std::string& name_or_path,
                             const std::vector<std::string>& template_folders,
                             Diagnostics& diagnostics) {
-  const bool is_path = name_or_path.find('/') != std::string::npos || ends_with(name_or_path, ".yaml");
+  const bool is_path =
+      name_or_path.find('/') != std::string::npos || ends_with(name_or_path, ".yaml");
   if (is_path) return read_map_file(name_or_path, diagnostics);
   for (const std::string& folder : template_folders)
     if (file_exists(map_path(folder, name_or_path)))
@@ -247,7 +250,8 @@ std::optional<Map> detect_map(const tags::ForeignSkeleton& skeleton,
 
 BoneNames::BoneNames(const Map& map, const tags::ForeignSkeleton& skeleton) {
   if (map.humanoid) {
-    for (const auto& [bone, joint] : skeleton.humanoid) sorted_.push_back({folded(bone), bone, joint});
+    for (const auto& [bone, joint] : skeleton.humanoid)
+      sorted_.push_back({folded(bone), bone, joint});
   } else {
     for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
       const std::string name = stripped(map, skeleton.joints[i].name);
@@ -265,9 +269,9 @@ BoneNames::BoneNames(const Map& map, const tags::ForeignSkeleton& skeleton) {
 
 int BoneNames::find(std::string_view bone) const {
   const std::string wanted = folded(bone);
-  const auto found =
-      std::lower_bound(sorted_.begin(), sorted_.end(), wanted,
-                       [](const Bone& candidate, const std::string& text) { return candidate.folded < text; });
+  const auto found = std::lower_bound(
+      sorted_.begin(), sorted_.end(), wanted,
+      [](const Bone& candidate, const std::string& text) { return candidate.folded < text; });
   return found != sorted_.end() && found->folded == wanted ? found->joint : -1;
 }
 

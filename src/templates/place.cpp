@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Placing: Expanded -> TaggedSkeleton in the template's own proportions. Chains become joints. In a mirrored
-// part a joint's frame is the reflected one with all axes turned round: -M R. It is right-handed, and a
-// rotation Q of the joint moves the world by (-M R) Q (-M R)^-1 = M (R Q R^-1) M, which is the mirror image.
-// Test: tests/templates/place_test.cpp
+// Placing: Expanded -> TaggedSkeleton in the template's own proportions. Chains become joints. In a
+// mirrored part a joint's frame is the reflected one with all axes turned round: -M R. It is
+// right-handed, and a rotation Q of the joint moves the world by (-M R) Q (-M R)^-1 = M (R Q R^-1)
+// M, which is the mirror image. Test: tests/templates/place_test.cpp
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,9 +22,9 @@ Mat3 times(const Mat3& m, double s) { return {m.x * s, m.y * s, m.z * s}; }
 
 /// Where a part stands: its own space to the outer one, or to the main template's.
 struct Space {
-  Affine to_main;          ///< with sizes and reflections
-  double size = 1;         ///< product of all sizes
-  bool mirrored = false;   ///< an odd number of reflections
+  Affine to_main;         ///< with sizes and reflections
+  double size = 1;        ///< product of all sizes
+  bool mirrored = false;  ///< an odd number of reflections
 };
 
 Vec3 reflected(Vec3 v, int axis) {
@@ -46,9 +46,9 @@ class Placer {
   /// What is known of a placed joint; of a chain: of its last one, on which children hang.
   struct Placed {
     bool done = false;
-    Affine own;              ///< in the instance's space
-    Affine main;             ///< in the main template's space
-    int index = -1;          ///< in the result
+    Affine own;      ///< in the instance's space
+    Affine main;     ///< in the main template's space
+    int index = -1;  ///< in the result
   };
 
   void make_spaces();
@@ -122,12 +122,13 @@ bool Placer::lies_in(int instance, int outer) const {
   return false;
 }
 
-/// A placed joint's frame in the space of an instance. A part that hangs on a joint outside of it sees that
-/// joint's frame as it is and not mirrored: both arms see one and the same chest.
+/// A placed joint's frame in the space of an instance. A part that hangs on a joint outside of it
+/// sees that joint's frame as it is and not mirrored: both arms see one and the same chest.
 Affine Placer::view(int instance_index, std::size_t index) const {
   const ExpandedJoint& joint = expanded_.joints[index];
   if (joint.instance == instance_index) return placed_[index].own;
-  if (lies_in(joint.instance, instance_index)) return seen_from(instance_index, placed_[index].main);
+  if (lies_in(joint.instance, instance_index))
+    return seen_from(instance_index, placed_[index].main);
   const Instance& instance = expanded_.instances[static_cast<std::size_t>(instance_index)];
   Affine frame = view(instance.outer, index);
   if (instance.mirror) {
@@ -163,10 +164,10 @@ std::optional<Vec3> Placer::target(std::size_t index) const {
 Mat3 Placer::aimed(const ExpandedJoint& joint, const Orient& orient, Vec3 from, Vec3 to) {
   const Vec3 bone = to - from;
   if (!(length(bone) > 1e-9)) {
-    diagnostics_.report(codes::kNowhereToAim, orient.span,
-                        fmt::format("the joint {} and what it aims at lie in one place",
-                                    joint.tagged.name),
-                        "name another joint in `toward:`");
+    diagnostics_.report(
+        codes::kNowhereToAim, orient.span,
+        fmt::format("the joint {} and what it aims at lie in one place", joint.tagged.name),
+        "name another joint in `toward:`");
     return {};
   }
   const Vec3 along = normalised(bone);
@@ -203,7 +204,8 @@ math::Trs Placer::own_rest(std::size_t index, const Affine& parent) {
   return rest;
 }
 
-/// A rest below a parent of the same instance, as it is outside: larger, and reflected by turning round.
+/// A rest below a parent of the same instance, as it is outside: larger, and reflected by turning
+/// round.
 math::Trs Placer::across(const math::Trs& rest, int instance) const {
   const Space& space = spaces_[static_cast<std::size_t>(instance)];
   math::Trs out = rest;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The driver of reading: the keys of a template file in the order in which they depend on each other.
-// Test: tests/templates/read_test.cpp
+// The driver of reading: the keys of a template file in the order in which they depend on each
+// other. Test: tests/templates/read_test.cpp
 #include "templates/read.h"
 
 #include <fmt/format.h>
@@ -93,7 +93,8 @@ void read_body(Reader& reader, const yaml::Node& root) {
     return node && !node->is_null() && !(node->is_sequence() && node->items.empty());
   };
   if (!has_items(joints) && !has_items(parts)) {
-    reader.error(codes::kEmptyTemplate, reader.out.span, "the template has neither joints nor parts");
+    reader.error(codes::kEmptyTemplate, reader.out.span,
+                 "the template has neither joints nor parts");
     return;
   }
   if (has_items(parts)) read_parts(reader, *parts);

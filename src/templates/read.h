@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads one template file: YAML to Template, checked completely as far as one file can be, all errors in
-// one run. Parts are not opened here. Test: tests/templates/read_test.cpp
+// Reads one template file: YAML to Template, checked completely as far as one file can be, all
+// errors in one run. Parts are not opened here. Test: tests/templates/read_test.cpp
 #pragma once
 
 #include <cstdint>

@@ -17,10 +17,10 @@ using catalog::Parameter;
 using catalog::ParameterType;
 
 /// The types that a template's parameter may have.
-constexpr std::array kTypes = {ParameterType::number,  ParameterType::integer, ParameterType::boolean,
-                               ParameterType::angle,   ParameterType::length,  ParameterType::vec3,
-                               ParameterType::color,   ParameterType::enumeration,
-                               ParameterType::text};
+constexpr std::array kTypes = {
+    ParameterType::number, ParameterType::integer,     ParameterType::boolean,
+    ParameterType::angle,  ParameterType::length,      ParameterType::vec3,
+    ParameterType::color,  ParameterType::enumeration, ParameterType::text};
 
 std::optional<ParameterType> read_type(Reader& reader, const yaml::Node& node) {
   const auto text = yaml::as_text(node, "type", reader.diagnostics);

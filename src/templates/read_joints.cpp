@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads `joints:` and checks how they hang together. Parents that may come from parts are checked when the
-// parts are known (expand). Test: tests/templates/read_test.cpp
+// Reads `joints:` and checks how they hang together. Parents that may come from parts are checked
+// when the parts are known (expand). Test: tests/templates/read_test.cpp
 #include <fmt/format.h>
 
 #include <unordered_map>
@@ -36,8 +36,8 @@ void read_identifiers(Reader& reader, const yaml::Node& node, Joint& joint) {
 
 void read_joint(Reader& reader, const yaml::Node& node) {
   static const std::vector<std::string> kKeys = {
-      "name", "parent", "at",    "translate", "rotate", "quat", "orient", "scale", "local", "global",
-      "label", "chain",  "optional", "helper", "was",    "uid",  "if",     "tags"};
+      "name",   "parent", "at",    "translate", "rotate", "quat", "orient", "scale", "local",
+      "global", "label",  "chain", "optional",  "helper", "was",  "uid",    "if",    "tags"};
   if (!yaml::check_keys(node, kKeys, "a joint", reader.diagnostics) && !node.is_map()) return;
   Joint joint;
   joint.span = node.span;
@@ -82,8 +82,10 @@ struct Finder {
   const Handles& names;
   Handles labels;
   int operator()(const std::string& word) const {
-    if (const auto found = names.find(word); found != names.end()) return static_cast<int>(found->second);
-    if (const auto found = labels.find(word); found != labels.end()) return static_cast<int>(found->second);
+    if (const auto found = names.find(word); found != names.end())
+      return static_cast<int>(found->second);
+    if (const auto found = labels.find(word); found != labels.end())
+      return static_cast<int>(found->second);
     return -1;
   }
 };
@@ -95,7 +97,8 @@ void check_word(Reader& reader, const Finder& find, const std::string& word, con
   if (reader.diagnostics.errors() < 100)  // later ones are not printed, and suggestions cost time
     for (const Joint& joint : reader.out.joints) names.push_back(joint.name);
   reader.error(codes::kUnknownJoint, span,
-               fmt::format("{}: the template has no joint \"{}\"", key, word), suggest(word, names));
+               fmt::format("{}: the template has no joint \"{}\"", key, word),
+               suggest(word, names));
 }
 
 /// Reports each circle once, at its first joint in the file.
@@ -134,7 +137,8 @@ void read_joints(Reader& reader, const yaml::Node& node) {
   const Handles names = index_names(reader);
   Finder find{names, {}};
   for (std::size_t i = 0; i < reader.out.joints.size(); ++i)
-    if (!reader.out.joints[i].ids.label.empty()) find.labels.emplace(reader.out.joints[i].ids.label, i);
+    if (!reader.out.joints[i].ids.label.empty())
+      find.labels.emplace(reader.out.joints[i].ids.label, i);
   if (reader.out.parts.empty()) {
     for (const Joint& joint : reader.out.joints) {
       check_word(reader, find, joint.parent, joint.parent_span, "parent");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads `parts:`. Their files are opened when the template is expanded. Test: tests/templates/read_test.cpp
+// Reads `parts:`. Their files are opened when the template is expanded. Test:
+// tests/templates/read_test.cpp
 #include <fmt/format.h>
 
 #include <unordered_map>
@@ -15,9 +16,12 @@ namespace {
 void read_mirror(Reader& reader, const yaml::Node& node, Part& part) {
   const auto text = yaml::as_text(node, "mirror", reader.diagnostics);
   if (!text) return;
-  if (*text == "x") part.mirror = 0;
-  else if (*text == "y") part.mirror = 1;
-  else if (*text == "z") part.mirror = 2;
+  if (*text == "x")
+    part.mirror = 0;
+  else if (*text == "y")
+    part.mirror = 1;
+  else if (*text == "z")
+    part.mirror = 2;
   else
     reader.error(codes::kUnknownWord, node.span,
                  fmt::format("mirror: \"{}\" is no axis", printable(*text, 40)),
@@ -59,9 +63,8 @@ void read_size(Reader& reader, const yaml::Node& node, Part& part) {
 }
 
 void read_part(Reader& reader, const yaml::Node& node) {
-  static const std::vector<std::string> kKeys = {"template", "as",     "was",  "attach",
-                                                 "mirror",   "at",     "rotate", "size",
-                                                 "with",     "groups", "if"};
+  static const std::vector<std::string> kKeys = {
+      "template", "as", "was", "attach", "mirror", "at", "rotate", "size", "with", "groups", "if"};
   if (!yaml::check_keys(node, kKeys, "a part", reader.diagnostics) && !node.is_map()) return;
   Part part;
   part.span = part.as_span = part.groups_span = node.span;
@@ -80,7 +83,8 @@ void read_part(Reader& reader, const yaml::Node& node) {
     part.attach_span = attach->span;
   }
   if (const yaml::Node* mirror = node.find("mirror")) read_mirror(reader, *mirror, part);
-  if (const yaml::Node* at = node.find("at")) part.at = reader.metres(*at, "at").value_or(math::Vec3{});
+  if (const yaml::Node* at = node.find("at"))
+    part.at = reader.metres(*at, "at").value_or(math::Vec3{});
   if (const yaml::Node* rotate = node.find("rotate"))
     part.rotation = reader.euler(*rotate, "rotate").value_or(math::Quat{});
   if (const yaml::Node* size = node.find("size")) read_size(reader, *size, part);
@@ -104,9 +108,10 @@ void read_parts(Reader& reader, const yaml::Node& node) {
     if (part.as.empty()) continue;
     const auto [other, fresh] = lines.emplace(part.as, part.as_span.line);
     if (!fresh)
-      reader.error(codes::kDuplicatePart, part.as_span,
-                   fmt::format("there is a part \"{}\" already, in line {}", part.as, other->second),
-                   "give it another name");
+      reader.error(
+          codes::kDuplicatePart, part.as_span,
+          fmt::format("there is a part \"{}\" already, in line {}", part.as, other->second),
+          "give it another name");
   }
 }
 

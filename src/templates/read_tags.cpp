@@ -74,7 +74,8 @@ void read_command(Reader& reader, const yaml::Node& node, int feature, Joint& jo
   if (const yaml::Node* on = node.find("on"))
     tag.on = yaml::as_bool(*on, "on", reader.diagnostics).value_or(true);
   if (const yaml::Node* was = node.find("was")) read_command_was(reader, *was, tag);
-  if (const yaml::Node* condition = node.find("if")) command.condition = reader.condition(*condition);
+  if (const yaml::Node* condition = node.find("if"))
+    command.condition = reader.condition(*condition);
   if (const yaml::Node* with = node.find("with")) read_with(reader, *with, tag);
   if (module_name) {
     if (const catalog::Descriptor* descriptor = reader.catalogue.find(*module_name))
@@ -101,8 +102,9 @@ void check_declaration(Reader& reader, const yaml::Node& node, tags::FeatureTag&
     return;
   }
   if (!tag.kind.empty() && tag.kind != declared->kind)
-    reader.error(codes::kFeatureKind, node.find("kind")->span,
-                 fmt::format("{} is declared as a feature of kind \"{}\"", tag.name, declared->kind));
+    reader.error(
+        codes::kFeatureKind, node.find("kind")->span,
+        fmt::format("{} is declared as a feature of kind \"{}\"", tag.name, declared->kind));
   tag.kind = declared->kind;
   if (tag.switch_name.empty()) return;
   for (const std::string& name : declared->switches)
@@ -127,7 +129,8 @@ int read_feature_tag(Reader& reader, const yaml::Node& node, Joint& joint) {
     tag.on = yaml::as_bool(*on, "on", reader.diagnostics).value_or(true);
     feature.on_written = true;
   }
-  if (const yaml::Node* condition = node.find("if")) feature.condition = reader.condition(*condition);
+  if (const yaml::Node* condition = node.find("if"))
+    feature.condition = reader.condition(*condition);
   if (const yaml::Node* name = node.find("feature"); name && !name->is_null()) {
     tag.span = name->span;
     tag.name = yaml::as_name(*name, "feature", reader.diagnostics).value_or("");

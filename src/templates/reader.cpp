@@ -35,8 +35,8 @@ std::vector<std::string> Reader::names(const yaml::Node& node, std::string_view 
     const auto name = yaml::as_name(item, what, diagnostics);
     if (!name) return;
     if (std::find(found.begin(), found.end(), *name) != found.end())
-      error(codes::kDuplicateWord, item.span, fmt::format("{}: \"{}\" is there already", what, *name),
-            "remove it");
+      error(codes::kDuplicateWord, item.span,
+            fmt::format("{}: \"{}\" is there already", what, *name), "remove it");
     else
       found.push_back(*name);
   };
@@ -144,10 +144,9 @@ std::optional<Condition> Reader::condition(const yaml::Node& node) {
   condition->span = node.span;
   if (!check_declared(condition->parameter, node.span)) return std::nullopt;
   const auto type = out.find_parameter(condition->parameter)->type;
-  const bool has_order = type == catalog::ParameterType::number ||
-                         type == catalog::ParameterType::integer ||
-                         type == catalog::ParameterType::angle ||
-                         type == catalog::ParameterType::length;
+  const bool has_order =
+      type == catalog::ParameterType::number || type == catalog::ParameterType::integer ||
+      type == catalog::ParameterType::angle || type == catalog::ParameterType::length;
   if (is_order(condition->op) && !has_order) {
     error(codes::kBadCondition, node.span,
           fmt::format("\"{}\" is no number and has no order", condition->parameter),

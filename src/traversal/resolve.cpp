@@ -232,7 +232,7 @@ class Resolver {
     const auto kind = scene::parse_kind(choice.kind);
     std::erase_if(answer.nodes, [&](NodeId id) { return !kind || node(id).kind != *kind; });
     if (answer.nodes.empty())
-      answer.why = fmt::format("no node there is a {}", printable(choice.kind));
+      answer.why = fmt::format("no node there is of kind {}", printable(choice.kind));
   }
 
   const Context& context_;

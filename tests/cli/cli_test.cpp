@@ -58,7 +58,7 @@ fs::path biped() { return rigc::test::source_folder() / "templates/biped.yaml"; 
 TEST_CASE("cli: --version and --help go to stdout and succeed") {
   const Outcome version = run_rigc({"--version"});
   CHECK(version.status == 0);
-  CHECK(version.out.rfind("rigc ", 0) == 0);
+  CHECK(version.out == "rigc 0.1.0\n");
   CHECK(version.err.empty());
   const Outcome help = run_rigc({"--help"});
   CHECK(help.status == 0);
@@ -142,7 +142,8 @@ TEST_CASE("cli: --json prints one JSON document and nothing else") {
         {"bake", "lever.glb", "-o", "baked.glb", "--json"},
         {"modules", "--json"},
         {"modules", "control", "--json"},
-        {"schema", "template", "--json"}}) {
+        {"schema", "control", "--json"},
+        {"schema", "RIGC_rig", "--json"}}) {
     INFO(arguments.front());
     const Outcome outcome = run_rigc(arguments, here);
     INFO(outcome.err);
@@ -196,7 +197,7 @@ TEST_CASE("cli: the same template gives the same bytes wherever and however it i
   REQUIRE(bytes.size() > 1000);
 
   struct Variant {
-    const char* what;
+    std::string what;
     std::string input;
     rigc::test::Surroundings surroundings;
   };

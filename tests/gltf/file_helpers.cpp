@@ -73,6 +73,10 @@ std::string write_output(const Output& output, const std::string& path,
   return path;
 }
 
+void allow_messages_of(const std::string& path, const std::string& model) {
+  write_bytes(path + ".model", fs::absolute(model).string() + "\n");
+}
+
 std::string whole(const Output& output) {
   std::string bytes;
   for (std::string_view piece : output.pieces) bytes += piece;
@@ -80,7 +84,7 @@ std::string whole(const Output& output) {
 }
 
 std::optional<File> open_text(const std::string& text, Diagnostics& diagnostics) {
-  const std::string path = make_folder("text") + "/model.gltf";
+  const std::string path = make_folder("broken/text") + "/model.gltf";
   write_bytes(path, text);
   return gltf::open(path, diagnostics);
 }

@@ -17,7 +17,8 @@ std::vector<std::string> corpus();
 /// One of them by its folder; empty where there is none.
 std::string corpus_file(std::string_view folder);
 
-/// A fresh folder below RIGC_TEST_OUT.
+/// A fresh folder below RIGC_TEST_OUT. What lies in a folder `broken` is not shown to the Khronos
+/// validator.
 std::string make_folder(const std::string& name);
 void write_bytes(const std::string& path, std::string_view bytes);
 /// Writes an output with its extra files into a folder and copies what it refers to from
@@ -25,6 +26,8 @@ void write_bytes(const std::string& path, std::string_view bytes);
 std::string write_output(const Output& output, const std::string& path,
                          const std::string& source_folder);
 std::string whole(const Output& output);
+/// Tells the validator that `path` may have the complaints that `model` has.
+void allow_messages_of(const std::string& path, const std::string& model);
 
 /// Opens a text as a file in a folder of the test's.
 std::optional<File> open_text(const std::string& text, Diagnostics& diagnostics);

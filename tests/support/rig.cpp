@@ -44,8 +44,11 @@ std::vector<scene::NodeId> Rig::nodes(const std::string& selector) const {
   Diagnostics quiet;
   const auto parsed = selector::parse(selector, {}, quiet);
   if (!parsed) return {};
-  const traversal::Context context{scene(), processor_->index(), skeleton.global,
-                                   processor_->index().joint(skeleton.joints.front().key), {}};
+  const traversal::Context context{scene(),
+                                   processor_->index(),
+                                   skeleton.global,
+                                   processor_->index().joint(skeleton.joints.front().key),
+                                   {}};
   const auto found = traversal::resolve(*parsed, context, quiet);
   return found ? found->nodes : std::vector<scene::NodeId>{};
 }
@@ -62,9 +65,9 @@ scene::Plug Rig::plug(const std::string& selector) const {
   REQUIRE(at != std::string::npos);
   const std::string attribute = selector.substr(at + 1);
   const std::size_t dot = attribute.find('.');
-  const auto found = scene().find_plug(
-      node(selector.substr(0, at)), attribute.substr(0, dot),
-      dot == std::string::npos ? std::string() : attribute.substr(dot + 1));
+  const auto found =
+      scene().find_plug(node(selector.substr(0, at)), attribute.substr(0, dot),
+                        dot == std::string::npos ? std::string() : attribute.substr(dot + 1));
   INFO(selector);
   REQUIRE(found);
   return *found;

@@ -20,7 +20,8 @@ namespace rigc::test {
 const catalog::Catalogue& catalogue();
 
 /// The text as a skeleton; empty where it has errors.
-std::optional<tags::TaggedSkeleton> skeleton_from(const std::string& yaml, Diagnostics& diagnostics);
+std::optional<tags::TaggedSkeleton> skeleton_from(const std::string& yaml,
+                                                  Diagnostics& diagnostics);
 
 /// A template's run. Not movable: the processor refers to its members.
 class Rig {
@@ -35,6 +36,7 @@ class Rig {
   /// Whether everything ran without a diagnostic.
   bool clean() const { return listed() && diagnostics.all().empty(); }
   processor::Processor& processor() { return *processor_; }
+  const traversal::Index& index() const { return processor_->index(); }
   const scene::Scene& scene() const { return processor_->scene(); }
 
   /// The nodes of a selector as seen from the first joint; none where it finds nothing.
@@ -44,7 +46,9 @@ class Rig {
   /// The one plug of a selector with an attribute.
   scene::Plug plug(const std::string& selector) const;
   /// Rest matrix in rig space.
-  math::Affine rest(const std::string& selector) const { return scene().rest_world(node(selector)); }
+  math::Affine rest(const std::string& selector) const {
+    return scene().rest_world(node(selector));
+  }
 
   Diagnostics diagnostics;
   tags::TaggedSkeleton skeleton;

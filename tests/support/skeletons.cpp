@@ -37,16 +37,17 @@ std::vector<Affine> worlds(const tags::TaggedSkeleton& skeleton) {
   return out;
 }
 
-namespace {
-
 void set_worlds(tags::TaggedSkeleton& skeleton, const std::vector<Affine>& worlds) {
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     tags::TaggedJoint& joint = skeleton.joints[j];
     joint.rest = math::decompose(
-        joint.parent < 0 ? worlds[j]
-                         : math::inverse(worlds[static_cast<std::size_t>(joint.parent)]) * worlds[j]);
+        joint.parent < 0
+            ? worlds[j]
+            : math::inverse(worlds[static_cast<std::size_t>(joint.parent)]) * worlds[j]);
   }
 }
+
+namespace {
 
 Mat3 times(const Mat3& m, double s) { return {m.x * s, m.y * s, m.z * s}; }
 

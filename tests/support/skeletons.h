@@ -30,6 +30,9 @@ class Random {
 /// World matrices of all joints at rest.
 std::vector<math::Affine> worlds(const tags::TaggedSkeleton& skeleton);
 
+/// Sets the rests from world matrices.
+void set_worlds(tags::TaggedSkeleton& skeleton, const std::vector<math::Affine>& worlds);
+
 /// Turns the axes of every joint at random; no joint moves.
 void turn_axes(tags::TaggedSkeleton& skeleton, std::uint64_t seed);
 

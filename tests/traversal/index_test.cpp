@@ -69,18 +69,16 @@ std::vector<NodeId> scan(const scene::Scene& scene, Wanted wanted) {
 void check_group(const Watched& w, const std::string& local) {
   const auto in_group = [&](const scene::Node& n) { return n.ids.local == local; };
   CHECK(w.index.group("hero", local) == scan(w.scene, in_group));
-  CHECK(w.index.joints("hero", local) == scan(w.scene, [&](const scene::Node& n) {
-          return in_group(n) && n.kind == Kind::joint;
-        }));
+  CHECK(w.index.joints("hero", local) ==
+        scan(w.scene, [&](const scene::Node& n) { return in_group(n) && n.kind == Kind::joint; }));
   std::set<std::string> labels;
   for (NodeId id : w.index.group("hero", local)) labels.insert(w.scene[id].ids.label);
   labels.erase("");
   CHECK(w.index.labels("hero", local) == std::vector<std::string>(labels.begin(), labels.end()));
   for (const std::string label : kLabels) {
     if (label.empty()) continue;
-    CHECK(w.index.labelled("hero", local, label) == scan(w.scene, [&](const scene::Node& n) {
-            return in_group(n) && n.ids.label == label;
-          }));
+    CHECK(w.index.labelled("hero", local, label) ==
+          scan(w.scene, [&](const scene::Node& n) { return in_group(n) && n.ids.label == label; }));
   }
 }
 
@@ -161,7 +159,8 @@ TEST_CASE("traversal index: names with the separator's look-alikes do not mix") 
   CHECK(w.index.labelled("hero", "abc", "").empty());
 }
 
-TEST_CASE("traversal index: after random comings and goings every list equals a scan of the scene") {
+TEST_CASE(
+    "traversal index: after random comings and goings every list equals a scan of the scene") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     CAPTURE(seed);
     test::Random random(seed);

@@ -28,7 +28,8 @@ std::optional<scene::Value> value_for(scene::Type type, const Literal& literal) 
   }
 }
 
-/// Whether a number lies in the range of the user attribute that it is for; fails where it does not.
+/// Whether a number lies in the range of the user attribute that it is for; fails where it does
+/// not.
 bool check_range(Builder& b, const Plug& plug, const scene::Value& value) {
   if (plug.attribute < scene::kUserAttributes) return true;
   const auto& attribute = b.scene()[plug.node].user[plug.attribute - scene::kUserAttributes];

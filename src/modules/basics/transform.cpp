@@ -8,8 +8,11 @@ namespace rigc::modules {
 
 void transform(Builder& b) {
   const Parameters& with = b.with();
-  const NodeId node = b.make(
-      {.kind = scene::Kind::transform, .role = "transform", .joint = {}, .parent = {}, .suffix = ""});
+  const NodeId node = b.make({.kind = scene::Kind::transform,
+                              .role = "transform",
+                              .joint = {},
+                              .parent = {},
+                              .suffix = ""});
   const std::string& orient = with.text("orient");
   math::Affine frame = oriented(b, b.joint(), orient);
   frame.origin =

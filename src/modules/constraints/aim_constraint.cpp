@@ -3,6 +3,7 @@
 // Test: tests/modules/constraints_test.cpp
 #include <cmath>
 
+#include "modules/codes.h"
 #include "modules/constraints/weights.h"
 #include "modules/registry.h"
 
@@ -43,10 +44,40 @@ Vec3 connect_up(Builder& b, NodeId node, NodeId driven) {
     return up;
   }
   const NodeId up_target = b.with().node("up_target");
+  if (!check_place(b, up_target, "up_target")) return up;
   b.set({node, aim::kUpMode}, 1.0);
   b.set({node, aim::kUpVector}, up);
   b.connect(world_of(up_target), {node, aim::kUpTarget});
   return math::normalised(position(b, up_target) - position(b, driven), up);
+}
+
+/// Where targets rest on average; without weight all count the same, as in the constraint itself.
+Vec3 mean_position(const std::vector<Target>& targets, const std::vector<double>& weights) {
+  double sum = 0;
+  for (double weight : weights) sum += weight;
+  Vec3 mean;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const double share = sum > 0 ? weights[i] / sum : 1 / static_cast<double>(targets.size());
+    mean = mean + targets[i].rest.origin * share;
+  }
+  return mean;
+}
+
+/// Rotation of the driven node seen from the aim frame (x at the targets, y up), so that its named
+/// axes lie on the frame's. `axes`: as it rests; `auto` names the nearest.
+Mat3 named_axes(Builder& b, const Mat3& axes, Vec3 toward, Vec3 up) {
+  const std::string& aim_name = b.with().text("aim");
+  const std::string& up_name = b.with().text("up");
+  const Vec3 named_up = up_name == "auto" ? Vec3{} : axis_vector(up_name);
+  const Vec3 aim_axis = aim_name == "auto"
+                            ? nearest_axis(axes, toward, up_name == "auto" ? nullptr : &named_up)
+                            : axis_vector(aim_name);
+  const Vec3 up_axis = up_name == "auto" ? nearest_axis(axes, up, &aim_axis) : named_up;
+  if (math::dot(aim_axis, up_axis) != 0) {
+    b.fail(codes::kSameAxis, "up", "aim and up name the same axis",
+           "one axis looks at the targets, another stays turned up");
+  }
+  return math::transposed(math::frame(aim_axis, up_axis));
 }
 
 }  // namespace
@@ -64,36 +95,21 @@ void aim_constraint(Builder& b) {
                               .suffix = ""});
   b.connect({driven, scene::transform::kParent}, {node, aim::kParent});
   b.connect({driven, scene::transform::kTranslate}, {node, aim::kPosition});
-  Vec3 middle;
-  double sum = 0;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const auto element = static_cast<std::int32_t>(i);
     b.set({node, aim::kTargets, element}, targets[i].rest);
     b.set({node, aim::kWeights, element}, weights[i]);
     b.connect(targets[i].world, {node, aim::kTargets, element});
-    middle = middle + targets[i].rest.origin * weights[i];
-    sum += weights[i];
   }
   connect_weights(b, node, aim::kWeights, weights);
   const Vec3 up = connect_up(b, node, driven);
   const Mat3 axes = math::orthonormal(rest(b, driven).linear);
-  const Vec3 toward = math::normalised(middle * (1 / (sum > 0 ? sum : 1)) - position(b, driven),
+  const Vec3 toward = math::normalised(mean_position(targets, weights) - position(b, driven),
                                        b.character().forward);
-
-  // Where the placement is kept, the offset holds the rest rotation; else the named axes lie on the
-  // aim frame's.
-  Mat3 rest_axes = axes;
-  if (!b.with().flag("maintain")) {
-    const std::string& aim_name = b.with().text("aim");
-    const std::string& up_name = b.with().text("up");
-    const Vec3 aim_axis =
-        aim_name == "auto" ? nearest_axis(axes, toward, nullptr) : axis_vector(aim_name);
-    const Vec3 up_axis =
-        up_name == "auto" ? nearest_axis(axes, up, &aim_axis) : axis_vector(up_name);
-    rest_axes = math::frame(toward, up) * math::transposed(math::frame(aim_axis, up_axis));
-  }
-  b.set({node, aim::kOffset},
-        math::quaternion(math::transposed(math::frame(toward, up)) * rest_axes));
+  const Mat3 offset = b.with().flag("maintain") ? math::transposed(math::frame(toward, up)) * axes
+                                                : named_axes(b, axes, toward, up);
+  if (b.failed()) return;
+  b.set({node, aim::kOffset}, math::quaternion(offset));
   const std::string& which = b.with().text("axes");
   if (which == "xyz")
     return b.connect({node, aim::kRotation}, {driven, scene::transform::kRotation});

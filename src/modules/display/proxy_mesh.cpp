@@ -11,6 +11,7 @@ constexpr double kDepth = 0.8;       // of a piece's width
 constexpr double kLeafLength = 0.6;  // of the parent's bone, for joints without children
 constexpr double kThinnest = 0.012;  // in heights of the character
 constexpr double kThickest = 0.055;
+constexpr double kSideways = 0.7;  // cosine: bones that reach to a side are wide from front to back
 
 std::size_t skeleton_children(const Builder& b, NodeId joint) {
   std::size_t count = 0;
@@ -18,29 +19,50 @@ std::size_t skeleton_children(const Builder& b, NodeId joint) {
   return count;
 }
 
-/// One row of scene::mesh::kParts, in joint space.
-void add_part(const Builder& b, NodeId joint, std::vector<double>& parts) {
+/// A piece at rest, rig space. `side` is the direction of its width, at right angles to it.
+struct Piece {
+  bool box = false;
+  math::Vec3 head, tail, side;
+  double width = 0, depth = 0;
+};
+
+Piece measure(const Builder& b, NodeId joint) {
   const Parameters& with = b.with();
   const double height = b.character().height;
   const std::size_t children = skeleton_children(b, joint);
   const std::string& style = with.text("style");
-  const bool box = style == "box" || (style == "auto" && children != 1);
-  const math::Vec3 direction = bone_direction(b, joint);
-  const double length = bone_length(b, joint) * (children == 0 ? kLeafLength : 1.0);
-  const double width = std::clamp(with.number("thickness") * bone_length(b, joint),
-                                  kThinnest * height, kThickest * height);
-  const math::Vec3 side = math::frame(direction, b.character().left).y;
+  const std::string& toward = with.text("toward");
+  const double bone = bone_length(b, joint);
+  const math::Vec3 direction =
+      toward == "bone" ? bone_direction(b, joint) : character_direction(b, toward);
+  const double length =
+      with.has("length") ? with.number("length") : bone * (children == 0 ? kLeafLength : 1.0);
+  Piece piece;
+  piece.box = style == "box" || (style == "auto" && children != 1);
+  piece.head = position(b, joint);
+  piece.tail = piece.head + direction * length;
+  const bool sideways = std::abs(math::dot(direction, b.character().left)) > kSideways;
+  piece.side = math::frame(direction, sideways ? b.character().forward : b.character().left).y;
+  piece.width = with.has("width") ? with.number("width")
+                                  : std::clamp(with.number("thickness") * bone, kThinnest * height,
+                                               kThickest * height);
+  piece.depth = with.has("depth") ? with.number("depth") : kDepth * piece.width;
+  return piece;
+}
 
+/// One row of scene::mesh::kParts, in joint space.
+void add_part(const Builder& b, NodeId joint, std::vector<double>& parts) {
+  const Piece piece = measure(b, joint);
   const math::Affine to_joint = math::inverse(rest(b, joint));
-  const math::Vec3 head = to_joint * position(b, joint);
-  const math::Vec3 tail = to_joint * (position(b, joint) + direction * length);
-  const math::Vec3 side_end = to_joint.linear * side;
-  const double unit = math::length(side_end);  // joint-space length of a rig unit
-  const math::Vec3 side_unit = math::normalised(side_end);
-  const math::Vec3 color = with.vec3("color");
-  parts.push_back(box ? 1.0 : 0.0);
-  for (const math::Vec3& v : {head, tail, side_unit}) parts.insert(parts.end(), {v.x, v.y, v.z});
-  parts.insert(parts.end(), {width * unit, width * kDepth * unit, color.x, color.y, color.z});
+  const math::Vec3 side = to_joint.linear * piece.side;
+  const double unit = math::length(side);  // joint-space length of a rig unit
+  const math::Vec3 color = b.with().vec3("color");
+  parts.push_back(piece.box ? 1.0 : 0.0);
+  for (const math::Vec3& v :
+       {to_joint * piece.head, to_joint * piece.tail, math::normalised(side)}) {
+    parts.insert(parts.end(), {v.x, v.y, v.z});
+  }
+  parts.insert(parts.end(), {piece.width * unit, piece.depth * unit, color.x, color.y, color.z});
 }
 
 }  // namespace

@@ -34,7 +34,6 @@ ControlSpec look(const Builder& b, NodeId joint, const std::string& part) {
 }
 
 void make_fk(Builder& b, Limb& limb) {
-  const Parameters& with = b.with();
   NodeId space = space_from(b, "parent", space_of(b, limb.joints[0]));
   for (std::size_t i = 0; i < 3 && !b.failed(); ++i) {
     const NodeId joint = limb.joints[i];
@@ -119,6 +118,17 @@ void blend(Builder& b, const Limb& limb) {
   }
 }
 
+/// A limb that hangs on no joint is carried by what its FK chain hangs on.
+void carry(Builder& b, const Limb& limb) {
+  namespace constraint = scene::constraint;
+  const NodeId start = limb.joints[0];
+  if (b.scene()[start].parent.valid()) return;
+  const NodeId node = make_constraint(b, scene::Kind::parent_constraint, start,
+                                      {target(b, limb.fk[0])}, {}, true, "driver", start);
+  b.connect({node, constraint::kTranslate}, {start, transform::kTranslate});
+  b.connect({node, constraint::kScale}, {start, transform::kScale});
+}
+
 }  // namespace
 
 void ik_fk_limb(Builder& b) {
@@ -137,6 +147,7 @@ void ik_fk_limb(Builder& b) {
   if (b.failed()) return;
   limb.solver = make_two_bone(b, limb.bones, limb.ik, limb.pole, 0);
   blend(b, limb);
+  carry(b, limb);
 }
 
 }  // namespace rigc::modules

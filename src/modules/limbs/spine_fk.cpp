@@ -18,6 +18,19 @@ void carry_base(Builder& b, NodeId zero, NodeId hips) {
   b.connect({node, scene::constraint::kTranslate}, {zero, scene::transform::kTranslate});
 }
 
+/// What hips and spine hang under as children: the space itself, or, for a joint, a transform that
+/// follows it, because the spine's base gets its position from the hips.
+NodeId stand_on(Builder& b, NodeId space, NodeId hips) {
+  if (!space.valid() || b.scene()[space].kind != scene::Kind::joint) return space;
+  const NodeId stand = b.make({.kind = scene::Kind::transform,
+                               .role = "space",
+                               .joint = hips,
+                               .parent = {},
+                               .suffix = "stand"});
+  hang(b, stand, space, {character_axes(b), position(b, hips)});
+  return stand;
+}
+
 }  // namespace
 
 void spine_fk(Builder& b) {
@@ -28,8 +41,9 @@ void spine_fk(Builder& b) {
            fmt::format("a spine needs at least two joints, not {}", joints.size()));
     return;
   }
-  const NodeId space = space_from(b, "parent", space_of(b, joints.front()));
+  const NodeId named = space_from(b, "parent", space_of(b, joints.front()));
   if (b.failed() || !check_descends(b, joints, "joints")) return;
+  const NodeId space = stand_on(b, named, joints.front());
   ControlSpec spec;
   spec.facing = {0, 1, 0};
   NodeId hips;
@@ -50,7 +64,7 @@ void spine_fk(Builder& b) {
     const ControlNodes made = make_control(b, spec);
     if (b.failed()) return;
     if (first) hips = made.control;
-    if (i == 1 && b.scene()[joints[1]].parent.valid()) carry_base(b, made.zero, hips);
+    if (i == 1) carry_base(b, made.zero, hips);
     drive(b, joints[i], target(b, made.control), spec.translate);
     spec.space = made.control;
   }

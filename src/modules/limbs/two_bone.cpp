@@ -36,9 +36,11 @@ TwoBone measure_two_bone(Builder& b, NodeId start, NodeId middle, NodeId end,
                          const std::string& bend) {
   TwoBone limb{start, middle, end, {}, 0};
   if (b.scene()[middle].parent != start || b.scene()[end].parent != middle) {
-    b.fail(codes::kNotAChain, {},
-           fmt::format("a two-bone limb takes three joints that hang directly under one another; {} and {} do not",
-                       traversal::describe(b.scene(), middle), traversal::describe(b.scene(), end)));
+    b.fail(
+        codes::kNotAChain, {},
+        fmt::format("a two-bone limb takes three joints that hang directly under one another; {} "
+                    "and {} do not",
+                    traversal::describe(b.scene(), middle), traversal::describe(b.scene(), end)));
     return limb;
   }
   const Vec3 p0 = position(b, start), p1 = position(b, middle), p2 = position(b, end);

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// What a bake must follow. Test: tests/bake/bodies_test.cpp
+#include "bake/bodies.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rigc::bake {
+namespace {
+
+using scene::NodeId;
+namespace transform = scene::transform;
+
+// Standings were read from 32-bit floats.
+constexpr double kRounding = 1e-6;
+
+bool near(double a, double b, double size) { return std::abs(a - b) <= kRounding * size; }
+
+bool near(const math::Vec3& a, const math::Vec3& b) {
+  const double size = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z), 1e-3});
+  return near(a.x, b.x, size) && near(a.y, b.y, size) && near(a.z, b.z, size);
+}
+
+bool near(const math::Trs& a, const math::Trs& b) {
+  const double turned =
+      1 - std::abs(math::dot(math::normalised(a.rotation), math::normalised(b.rotation)));
+  return near(a.translation, b.translation) && near(a.scale, b.scale) && turned < kRounding * kRounding;
+}
+
+/// Whether connections decide a node's transform.
+bool is_driven(const scene::Node& node) {
+  return std::any_of(node.inputs.begin(), node.inputs.end(), [](const scene::Connection& connection) {
+    return connection.to.attribute <= transform::kRotate;
+  });
+}
+
+class Finder {
+ public:
+  Finder(const scene::Scene& scene, const std::vector<int>& nodes, const std::vector<bool>& animated,
+         const Options& options)
+      : scene_(scene), nodes_(nodes), animated_(animated), options_(options) {
+    places_.assign(scene.size(), -1);
+  }
+
+  std::vector<Body> find() {
+    for (const NodeId id : scene_.nodes())
+      if (is_bone(id) && nodes_[id.index] >= 0 && gets_channels(id)) add_with_bases(id);
+    return std::move(bodies_);
+  }
+
+ private:
+  Standing standing(NodeId id) const {
+    if (!options_.standings.empty()) return options_.standings[id.index];
+    return {transform_above(id), {}, scene_.local(id)};
+  }
+
+  NodeId transform_above(NodeId id) const {
+    NodeId at = scene_[id].parent;
+    while (at.valid() && !scene::spec(scene_[at].kind).is_transform) at = scene_[at].parent;
+    return at;
+  }
+
+  /// A joint of the skeleton, or one that a command hung under bones; not a helper among the controls.
+  bool is_bone(NodeId id) const {
+    for (NodeId at = id; at.valid(); at = scene_[at].parent) {
+      if (scene_[at].kind != scene::Kind::joint) return false;
+      if (scene_[at].is_skeleton()) return true;
+    }
+    return false;
+  }
+
+  bool is_direct(NodeId id) const {
+    const Standing place = standing(id);
+    return place.base == transform_above(id) && place.between == math::Affine{};
+  }
+
+  bool stands_as_scene(NodeId id) const { return near(standing(id).local, scene_.local(id)); }
+
+  bool gets_channels(NodeId id) const {
+    const NodeId base = standing(id).base;
+    // What hangs under a control moves with it, connected or not.
+    if (is_driven(scene_[id]) || !is_direct(id) || (base.valid() && !is_bone(base))) return true;
+    return animated_[id.index] && !stands_as_scene(id);
+  }
+
+  /// Whether what the file plays for a node that gets no channels is what the scene evaluates.
+  bool plays_as_scene(NodeId id) const {
+    if (is_driven(scene_[id]) || !is_direct(id) || !stands_as_scene(id)) return false;
+    return !animated_[id.index] || scene_[id].kind == scene::Kind::joint || options_.controls_play;
+  }
+
+  void add_with_bases(NodeId id) {
+    std::vector<NodeId> path;
+    for (NodeId at = id; at.valid() && places_[at.index] < 0; at = standing(at).base) path.push_back(at);
+    for (auto at = path.rbegin(); at != path.rend(); ++at) add(*at);
+  }
+
+  void add(NodeId id) {
+    const Standing place = standing(id);
+    Body body{id, place.base.valid() ? places_[place.base.index] : -1, place.between, place.local,
+              Body::Source::local, is_bone(id) && gets_channels(id)};
+    const bool base_plays =
+        body.base < 0 || bodies_[static_cast<std::size_t>(body.base)].source != Body::Source::standing;
+    const bool follows = base_plays && is_direct(id);
+    if (body.is_output)
+      body.source = follows ? Body::Source::local : Body::Source::world;
+    else if (!follows || !plays_as_scene(id))
+      body.source = Body::Source::standing;
+    places_[id.index] = static_cast<int>(bodies_.size());
+    bodies_.push_back(body);
+  }
+
+  const scene::Scene& scene_;
+  const std::vector<int>& nodes_;
+  const std::vector<bool>& animated_;
+  const Options& options_;
+  std::vector<int> places_;   // in bodies_, by scene node
+  std::vector<Body> bodies_;
+};
+
+}  // namespace
+
+std::vector<Body> find_bodies(const scene::Scene& scene, const std::vector<int>& nodes,
+                              const std::vector<bool>& animated, const Options& options) {
+  return Finder(scene, nodes, animated, options).find();
+}
+
+}  // namespace rigc::bake
