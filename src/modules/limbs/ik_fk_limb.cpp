@@ -56,6 +56,7 @@ void make_ik(Builder& b, Limb& limb) {
   const NodeId space = space_from(b, "ik_parent", root_control(b));
   if (b.failed()) return;
   ControlSpec spec = look(b, limb.joints[2], "ik");
+  spec.offset = with.vec3("ik_offset");
   spec.frame = oriented(b, limb.joints[2], with.text("ik_orient"));
   spec.axes = axes_from(with.text("ik_orient"));
   spec.space = space;
