@@ -16,20 +16,33 @@
 namespace rigc::pipeline {
 namespace {
 
-/// glTF nodes of a rig, apart: what animators key, and what the rig drives.
-struct RigNodes {
-  std::set<int> controls;
-  std::set<int> driven;
+/// Shear below this, in sizes of the joint, is rounding.
+constexpr double kShearReported = 1e-4;
+
+/// A rig with what baking it needs to know of its file.
+struct Bakeable {
+  const gltf::Rig* rig;
+  std::vector<bake::Standing> standings;
+  std::set<int> controls;  ///< glTF nodes that are not bones: what animators key
 };
 
-RigNodes nodes_of(const gltf::Rig& rig) {
-  RigNodes nodes;
-  for (scene::NodeId id : rig.scene.nodes()) {
-    const int node = rig.nodes[id.index];
-    if (node < 0) continue;
-    (rig.scene[id].is_skeleton() ? nodes.driven : nodes.controls).insert(node);
+std::optional<std::vector<Bakeable>> look_at_rigs(const gltf::File& file,
+                                                  const std::vector<gltf::Rig>& rigs,
+                                                  Diagnostics& diagnostics) {
+  std::vector<Bakeable> out;
+  for (const gltf::Rig& rig : rigs) {
+    const auto standings = gltf::standings(file, rig, diagnostics);
+    if (!standings) return std::nullopt;
+    Bakeable& bakeable = out.emplace_back();
+    bakeable.rig = &rig;
+    for (const gltf::Standing& s : *standings)
+      bakeable.standings.push_back({s.base, s.between, s.local});
+    for (scene::NodeId id : rig.scene.nodes()) {
+      const bool bone = rig.scene[id].kind == scene::Kind::joint;
+      if (!bone && rig.nodes[id.index] >= 0) bakeable.controls.insert(rig.nodes[id.index]);
+    }
   }
-  return nodes;
+  return out;
 }
 
 std::optional<bake::Options> read_options(const BakeRequest& request, Diagnostics& diagnostics) {
@@ -74,50 +87,70 @@ std::optional<std::set<std::size_t>> choose_clips(const BakeRequest& request,
   return chosen;
 }
 
+/// Reports joints that a clip animates although the rig drives them, and shear.
+void report_clip(const BakeRequest& request, const anim::Clip& clip, const bake::Report& report,
+                 std::size_t foreign, Diagnostics& diagnostics) {
+  const Place place(request.file, fmt::format("/animations/{}", clip.source_animation));
+  if (foreign > 0) {
+    diagnostics.report(
+        codes::kForeignChannels, place,
+        fmt::format("{} channels of clip \"{}\" move joints that the rig drives; the controls win",
+                    foreign, printable(clip.name)));
+  }
+  if (report.shear > kShearReported) {
+    diagnostics.report(codes::kShear, place,
+                       fmt::format("clip \"{}\": joints are sheared, by up to {:.2g} of their size",
+                                   printable(clip.name), report.shear));
+  }
+}
+
 /// Bakes one clip over every rig whose controls it animates.
-std::optional<BakedClip> bake_clip(const BakeRequest& request, const bake::Options& base,
-                                   const anim::Clip& clip, const std::vector<gltf::Rig>& rigs,
+std::optional<BakedClip> bake_clip(const BakeRequest& request, bake::Options options,
+                                   const anim::Clip& clip, const std::vector<Bakeable>& rigs,
                                    const gltf::File& file, gltf::Patch& patch,
                                    Diagnostics& diagnostics) {
   BakedClip baked{clip.name, true, {}};
   anim::Clip out{clip.name, clip.source_animation, {}};
-  std::vector<int> dropped;
-  std::size_t foreign = 0;
-  for (const gltf::Rig& rig : rigs) {
-    const RigNodes nodes = nodes_of(rig);
-    const auto on_control = [&](const anim::Channel& c) {
-      return nodes.controls.count(c.node) != 0;
-    };
-    if (std::none_of(clip.channels.begin(), clip.channels.end(), on_control)) continue;
+  std::set<int> controls, driven;
+  for (const Bakeable& bakeable : rigs) {
+    const bool concerned = std::any_of(
+        clip.channels.begin(), clip.channels.end(),
+        [&](const anim::Channel& channel) { return bakeable.controls.count(channel.node) != 0; });
+    if (!concerned) continue;
     baked.passed_through = false;
-    bake::Options options = base;
-    options.tolerance = request.tolerance_mm / 1000 * rig.skeleton.character.unit;
-    const auto joints = bake::bake(rig.scene, rig.nodes, clip, options, baked.report, diagnostics);
+    options.tolerance = request.tolerance_mm / 1000 * bakeable.rig->skeleton.character.unit;
+    options.standings = bakeable.standings;
+    options.controls_play = request.keep_rig;
+    const auto joints = bake::bake(bakeable.rig->scene, bakeable.rig->nodes, clip, options,
+                                   baked.report, diagnostics);
     if (!joints) return std::nullopt;
     out.channels.insert(out.channels.end(), joints->channels.begin(), joints->channels.end());
-    for (const anim::Channel& channel : clip.channels) {
-      const bool driven = nodes.driven.count(channel.node) != 0;
-      foreign += driven ? 1 : 0;
-      if (driven || (on_control(channel) && !request.keep_rig))
-        dropped.push_back(channel.source_channel);
-    }
+    controls.insert(bakeable.controls.begin(), bakeable.controls.end());
   }
   if (baked.passed_through) return baked;
-  if (foreign > 0) {
-    diagnostics.report(
-        codes::kForeignChannels,
-        Place(file.path, fmt::format("/animations/{}", clip.source_animation)),
-        fmt::format("{} channels of clip \"{}\" move joints that the rig drives; the controls win",
-                    foreign, printable(clip.name)));
+  driven.insert(baked.report.driven.begin(), baked.report.driven.end());
+  std::vector<int> dropped;
+  std::size_t foreign = 0;
+  for (const anim::Channel& channel : clip.channels) {
+    const bool on_driven = driven.count(channel.node) != 0;
+    foreign += on_driven ? 1 : 0;
+    const bool on_control = controls.count(channel.node) != 0 && !request.keep_rig;
+    if (on_driven || on_control) dropped.push_back(channel.source_channel);
   }
-  if (baked.report.shear > 1e-4) {
-    diagnostics.report(codes::kShear,
-                       Place(file.path, fmt::format("/animations/{}", clip.source_animation)),
-                       fmt::format("clip \"{}\": joints are sheared, by up to {:.2g} of their size",
-                                   printable(clip.name), baked.report.shear));
-  }
+  report_clip(request, clip, baked.report, foreign, diagnostics);
   gltf::write_clip(patch, file, out, dropped);
   return baked;
+}
+
+/// A clip that was not asked for loses what it keyed on controls that are gone.
+void leave_out(const anim::Clip& clip, const std::set<int>& gone, const gltf::File& file,
+               gltf::Patch& patch) {
+  std::vector<int> dropped;
+  for (const anim::Channel& channel : clip.channels) {
+    if (gone.count(channel.node)) dropped.push_back(channel.source_channel);
+  }
+  if (!dropped.empty())
+    gltf::write_clip(patch, file, {clip.name, clip.source_animation, {}}, dropped);
 }
 
 }  // namespace
@@ -139,15 +172,22 @@ std::optional<Baked> bake_file(const BakeRequest& request, const std::string& ou
   const auto chosen = choose_clips(request, clips->clips, diagnostics);
   if (!chosen) return std::nullopt;
 
+  const auto bakeable = look_at_rigs(*file, *rigs, diagnostics);
+  if (!bakeable) return std::nullopt;
+
   Baked result;
   gltf::Patch patch(*file);
-  for (std::size_t i : *chosen) {
-    auto baked = bake_clip(request, *options, clips->clips[i], *rigs, *file, patch, diagnostics);
+  std::set<int> gone;
+  if (!request.keep_rig) gone = gltf::strip_rigs(patch, *file, *rigs);
+  for (std::size_t i = 0; i < clips->clips.size(); ++i) {
+    if (!chosen->count(i)) {
+      leave_out(clips->clips[i], gone, *file, patch);
+      continue;
+    }
+    auto baked =
+        bake_clip(request, *options, clips->clips[i], *bakeable, *file, patch, diagnostics);
     if (!baked) return std::nullopt;
     result.clips.push_back(std::move(*baked));
-  }
-  if (!request.keep_rig) {
-    for (const gltf::Rig& rig : *rigs) gltf::strip_rig(patch, *file, rig);
   }
   if (!write_output(patch, *file, out, result.bytes, diagnostics)) return std::nullopt;
   return result;
