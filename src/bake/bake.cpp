@@ -54,7 +54,8 @@ std::optional<anim::Clip> bake(const scene::Scene& scene, const std::vector<int>
   const std::vector<Input> inputs = find_inputs(scene, nodes, clip);
   const std::vector<Body> bodies =
       find_bodies(scene, nodes, animated_nodes(scene, inputs), options);
-  auto times = frame_times(clip, clip_of(inputs), options, bodies.size() * kMotionWidth, diagnostics);
+  auto times =
+      frame_times(clip, clip_of(inputs), options, bodies.size() * kMotionWidth, diagnostics);
   if (!times) return std::nullopt;
   const auto motion = evaluate(scene, bodies, inputs, std::move(*times), diagnostics);
   if (!motion) return std::nullopt;
@@ -64,8 +65,9 @@ std::optional<anim::Clip> bake(const scene::Scene& scene, const std::vector<int>
   report.frames = std::max(report.frames, key_times.size());
   report.shear = std::max(report.shear, motion->shear);
   if (options.tolerance > 0)
-    report.reduction_error = std::max(
-        report.reduction_error, reduce(scene, bodies, *motion, key_times, options.tolerance, tracks));
+    report.reduction_error =
+        std::max(report.reduction_error,
+                 reduce(scene, bodies, *motion, key_times, options.tolerance, tracks));
   for (const Body& body : bodies)
     if (body.is_output) report.driven.push_back(nodes[body.id.index]);
 

@@ -11,36 +11,42 @@
 
 namespace rigc::bake {
 
-/// Where a node stands in its file, which may differ from the scene: a model's joint keeps its parent and the
-/// transform that its author left it in.
+/// Where a node stands in its file, which may differ from the scene: a model's joint keeps its
+/// parent and the transform that its author left it in.
 struct Standing {
-  scene::NodeId base;      ///< nearest node of the rig above it in the file; invalid: the rig's space
-  math::Affine between;    ///< from the base (or the rig's space) to the node's parent in the file
-  math::Trs local;         ///< of the node in the file: what plays where it has no channel
+  scene::NodeId base;    ///< nearest node of the rig above it in the file; invalid: the rig's space
+  math::Affine between;  ///< from the base (or the rig's space) to the node's parent in the file
+  math::Trs local;       ///< of the node in the file: what plays where it has no channel
 };
 
 struct Options {
-  double fps = 30;                          ///< 0: the union of the keys' times
-  std::optional<double> start, end;         ///< seconds; else the clip's
-  double tolerance = 0;                     ///< largest world-space error of any joint (rig units) that key reduction may cause; 0: only exact repeats are dropped
-  std::vector<Standing> standings;          ///< by scene node; empty: every node stands where the scene's rest has it
-  bool controls_play = false;               ///< the controls keep their channels in the baked file (`--keep-rig`)
+  double fps = 30;                   ///< 0: the union of the keys' times
+  std::optional<double> start, end;  ///< seconds; else the clip's
+  double tolerance = 0;  ///< largest world-space error of any joint (rig units) that key reduction
+                         ///< may cause; 0: only exact repeats are dropped
+  std::vector<Standing>
+      standings;  ///< by scene node; empty: every node stands where the scene's rest has it
+  bool controls_play =
+      false;  ///< the controls keep their channels in the baked file (`--keep-rig`)
 };
 
 struct Report {
   std::size_t frames = 0;
   std::size_t channels = 0;
   std::size_t keys = 0;
-  double shear = 0;                         ///< largest relative error where TRS cannot express a joint
-  double reduction_error = 0;               ///< largest world-space error of a joint after reduction, rig units
-  std::vector<int> driven;                  ///< glTF nodes that the result speaks for, with a channel or without: other channels on them do not count
+  double shear = 0;            ///< largest relative error where TRS cannot express a joint
+  double reduction_error = 0;  ///< largest world-space error of a joint after reduction, rig units
+  std::vector<int> driven;  ///< glTF nodes that the result speaks for, with a channel or without:
+                            ///< other channels on them do not count
 };
 
-/// `nodes`: glTF node of each scene node (-1: none). Channels of `clip` on nodes of the scene are evaluated, others
-/// ignored, and so are those on attributes that the rig drives. The result has channels only where a joint moves against
-/// what stands in its file, a channel that never changes as one key; quaternions continuous. Joints that nothing drives
-/// keep the channels of their own that they may have.
-std::optional<anim::Clip> bake(const scene::Scene& scene, const std::vector<int>& nodes, const anim::Clip& clip,
-                               const Options& options, Report& report, Diagnostics& diagnostics);
+/// `nodes`: glTF node of each scene node (-1: none). Channels of `clip` on nodes of the scene are
+/// evaluated, others ignored, and so are those on attributes that the rig drives. The result has
+/// channels only where a joint moves against what stands in its file, a channel that never changes
+/// as one key; quaternions continuous. Joints that nothing drives keep the channels of their own
+/// that they may have.
+std::optional<anim::Clip> bake(const scene::Scene& scene, const std::vector<int>& nodes,
+                               const anim::Clip& clip, const Options& options, Report& report,
+                               Diagnostics& diagnostics);
 
 }  // namespace rigc::bake

@@ -24,20 +24,22 @@ bool near(const math::Vec3& a, const math::Vec3& b) {
 bool near(const math::Trs& a, const math::Trs& b) {
   const double turned =
       1 - std::abs(math::dot(math::normalised(a.rotation), math::normalised(b.rotation)));
-  return near(a.translation, b.translation) && near(a.scale, b.scale) && turned < kRounding * kRounding;
+  return near(a.translation, b.translation) && near(a.scale, b.scale) &&
+         turned < kRounding * kRounding;
 }
 
 /// Whether connections decide a node's transform.
 bool is_driven(const scene::Node& node) {
-  return std::any_of(node.inputs.begin(), node.inputs.end(), [](const scene::Connection& connection) {
-    return connection.to.attribute <= transform::kRotate;
-  });
+  return std::any_of(node.inputs.begin(), node.inputs.end(),
+                     [](const scene::Connection& connection) {
+                       return connection.to.attribute <= transform::kRotate;
+                     });
 }
 
 class Finder {
  public:
-  Finder(const scene::Scene& scene, const std::vector<int>& nodes, const std::vector<bool>& animated,
-         const Options& options)
+  Finder(const scene::Scene& scene, const std::vector<int>& nodes,
+         const std::vector<bool>& animated, const Options& options)
       : scene_(scene), nodes_(nodes), animated_(animated), options_(options) {
     places_.assign(scene.size(), -1);
   }
@@ -60,7 +62,8 @@ class Finder {
     return at;
   }
 
-  /// A joint of the skeleton, or one that a command hung under bones; not a helper among the controls.
+  /// A joint of the skeleton, or one that a command hung under bones; not a helper among the
+  /// controls.
   bool is_bone(NodeId id) const {
     for (NodeId at = id; at.valid(); at = scene_[at].parent) {
       if (scene_[at].kind != scene::Kind::joint) return false;
@@ -91,16 +94,21 @@ class Finder {
 
   void add_with_bases(NodeId id) {
     std::vector<NodeId> path;
-    for (NodeId at = id; at.valid() && places_[at.index] < 0; at = standing(at).base) path.push_back(at);
+    for (NodeId at = id; at.valid() && places_[at.index] < 0; at = standing(at).base)
+      path.push_back(at);
     for (auto at = path.rbegin(); at != path.rend(); ++at) add(*at);
   }
 
   void add(NodeId id) {
     const Standing place = standing(id);
-    Body body{id, place.base.valid() ? places_[place.base.index] : -1, place.between, place.local,
-              Body::Source::local, is_bone(id) && gets_channels(id)};
-    const bool base_plays =
-        body.base < 0 || bodies_[static_cast<std::size_t>(body.base)].source != Body::Source::standing;
+    Body body{id,
+              place.base.valid() ? places_[place.base.index] : -1,
+              place.between,
+              place.local,
+              Body::Source::local,
+              is_bone(id) && gets_channels(id)};
+    const bool base_plays = body.base < 0 || bodies_[static_cast<std::size_t>(body.base)].source !=
+                                                 Body::Source::standing;
     const bool follows = base_plays && is_direct(id);
     if (body.is_output)
       body.source = follows ? Body::Source::local : Body::Source::world;
@@ -114,7 +122,7 @@ class Finder {
   const std::vector<int>& nodes_;
   const std::vector<bool>& animated_;
   const Options& options_;
-  std::vector<int> places_;   // in bodies_, by scene node
+  std::vector<int> places_;  // in bodies_, by scene node
   std::vector<Body> bodies_;
 };
 

@@ -13,20 +13,20 @@ namespace rigc::bake {
 struct Body {
   /// How its local transform comes about in the baked file.
   enum class Source : std::uint8_t {
-    local,      ///< as the scene evaluates it: base and parent are one, and play as the scene does
-    world,      ///< so that its world is the scene's, whatever its base does
-    standing    ///< it has no channel and stays as it stands
+    local,    ///< as the scene evaluates it: base and parent are one, and play as the scene does
+    world,    ///< so that its world is the scene's, whatever its base does
+    standing  ///< it has no channel and stays as it stands
   };
   scene::NodeId id;
-  int base = -1;               ///< index in the list, smaller than its own; -1: the rig's space
+  int base = -1;  ///< index in the list, smaller than its own; -1: the rig's space
   math::Affine between;
   math::Trs standing;
   Source source = Source::local;
-  bool is_output = false;      ///< gets channels
+  bool is_output = false;  ///< gets channels
 };
 
-/// Joints that get channels and all they hang under, bases first. `animated`: by scene node, whether the clip has a
-/// channel on its transform.
+/// Joints that get channels and all they hang under, bases first. `animated`: by scene node,
+/// whether the clip has a channel on its transform.
 std::vector<Body> find_bodies(const scene::Scene& scene, const std::vector<int>& nodes,
                               const std::vector<bool>& animated, const Options& options);
 

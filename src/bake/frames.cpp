@@ -13,24 +13,26 @@ namespace rigc::bake {
 namespace {
 
 constexpr double kMostFrames = 1'000'000;
-constexpr double kMostNumbers = 1 << 28;   // 2 GB of doubles
-constexpr double kNearly = 1e-4;           // of a frame: a frame so close to the end is the end
+constexpr double kMostNumbers = 1 << 28;  // 2 GB of doubles
+constexpr double kNearly = 1e-4;          // of a frame: a frame so close to the end is the end
 
 struct Window {
   double start = 0;
   double end = 0;
 };
 
-std::optional<Window> window_of(const anim::Clip& clip, const Options& options, Diagnostics& diagnostics) {
+std::optional<Window> window_of(const anim::Clip& clip, const Options& options,
+                                Diagnostics& diagnostics) {
   Window range;
   range.start = options.start.value_or(std::max(anim::first_time(clip), 0.0));
   range.end = options.end.value_or(std::max(anim::last_time(clip), range.start));
   // Written so that NaN fails.
   if (range.start >= 0 && range.end >= range.start && std::isfinite(range.end) && options.fps >= 0)
     return range;
-  diagnostics.report(codes::kRange, {},
-                     fmt::format("a bake from {} to {} seconds at {} frames a second is not possible",
-                                 range.start, range.end, options.fps));
+  diagnostics.report(
+      codes::kRange, {},
+      fmt::format("a bake from {} to {} seconds at {} frames a second is not possible", range.start,
+                  range.end, options.fps));
   return std::nullopt;
 }
 

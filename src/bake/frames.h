@@ -9,8 +9,9 @@
 
 namespace rigc::bake {
 
-/// Seconds, rising even as 32-bit floats, at least one. `clip` gives the range, `animated` (its channels that count) the
-/// times where fps is 0. `width`: numbers that the bake keeps for each frame.
+/// Seconds, rising even as 32-bit floats, at least one. `clip` gives the range, `animated` (its
+/// channels that count) the times where fps is 0. `width`: numbers that the bake keeps for each
+/// frame.
 std::optional<std::vector<double>> frame_times(const anim::Clip& clip, const anim::Clip& animated,
                                                const Options& options, std::size_t width,
                                                Diagnostics& diagnostics);

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <map>
 
-#include "base/text.h"
 #include "bake/codes.h"
+#include "base/text.h"
 #include "eval/evaluate.h"
 
 namespace rigc::bake {
@@ -20,7 +20,7 @@ using scene::Plug;
 namespace transform = scene::transform;
 
 constexpr double kLargest = 1e30;
-constexpr std::size_t kOutputs = 4;   // of each body: translate, rotation, scale, world
+constexpr std::size_t kOutputs = 4;  // of each body: translate, rotation, scale, world
 
 math::Vec3 vector_at(const double* n) { return {n[0], n[1], n[2]}; }
 
@@ -47,7 +47,8 @@ Evaluated take(const eval::Instance& instance, std::size_t first, int lane) {
 
 bool fits(const math::Trs& trs) {
   for (std::size_t c = 0; c < 3; ++c)
-    if (!(std::abs(trs.translation[c]) <= kLargest && std::abs(trs.scale[c]) <= kLargest)) return false;
+    if (!(std::abs(trs.translation[c]) <= kLargest && std::abs(trs.scale[c]) <= kLargest))
+      return false;
   return std::isfinite(trs.rotation.x + trs.rotation.y + trs.rotation.z + trs.rotation.w);
 }
 
@@ -146,8 +147,8 @@ std::optional<Motion> evaluate(const scene::Scene& scene, const std::vector<Body
   eval::Request request;
   for (const Input& input : inputs) request.inputs.push_back(input.plug);
   for (const Body& body : bodies) {
-    for (const std::uint16_t attribute : {transform::kTranslate, transform::kRotation,
-                                          transform::kScale, transform::kWorld})
+    for (const std::uint16_t attribute :
+         {transform::kTranslate, transform::kRotation, transform::kScale, transform::kWorld})
       request.outputs.push_back({body.id, attribute});
   }
   const auto program = eval::compile(scene, request, diagnostics);
@@ -177,9 +178,10 @@ std::optional<Motion> evaluate(const scene::Scene& scene, const std::vector<Body
   eval::for_frames(*program, frames, set, take_frame);
   if (bad < 0) return motion;
   const scene::Node& node = scene[bodies[static_cast<std::size_t>(bad)].id];
-  diagnostics.report(codes::kNotFinite, node.origin.span,
-                     fmt::format("\"{}\" cannot be written at {:.3f} seconds: it is not finite or above 1e30",
-                                 printable(node.name), bad_time));
+  diagnostics.report(
+      codes::kNotFinite, node.origin.span,
+      fmt::format("\"{}\" cannot be written at {:.3f} seconds: it is not finite or above 1e30",
+                  printable(node.name), bad_time));
   return std::nullopt;
 }
 

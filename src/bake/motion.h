@@ -11,10 +11,12 @@
 namespace rigc::bake {
 
 struct Motion {
-  std::vector<double> times;                      ///< seconds, [frames]
-  std::vector<std::vector<math::Trs>> locals;     ///< [bodies][frames], relative to the node's parent in the file
-  std::vector<std::vector<math::Affine>> worlds;  ///< [bodies][frames], rig space: what the locals add up to
-  double shear = 0;                               ///< largest error where a local transform cannot be expressed
+  std::vector<double> times;  ///< seconds, [frames]
+  std::vector<std::vector<math::Trs>>
+      locals;  ///< [bodies][frames], relative to the node's parent in the file
+  std::vector<std::vector<math::Affine>>
+      worlds;        ///< [bodies][frames], rig space: what the locals add up to
+  double shear = 0;  ///< largest error where a local transform cannot be expressed
 };
 
 /// Numbers that a Motion holds for each body and frame.
@@ -23,10 +25,11 @@ inline constexpr std::size_t kMotionWidth = 22;
 /// One attribute that the clip animates.
 struct Input {
   scene::Plug plug;
-  const anim::Curve* curve = nullptr;   ///< of the clip
+  const anim::Curve* curve = nullptr;  ///< of the clip
 };
 
-/// Channels of a clip that move plugs of the scene; those on plugs that cannot be animated are left out.
+/// Channels of a clip that move plugs of the scene; those on plugs that cannot be animated are left
+/// out.
 std::vector<Input> find_inputs(const scene::Scene& scene, const std::vector<int>& nodes,
                                const anim::Clip& clip);
 

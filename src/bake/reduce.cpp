@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Takes keys away within a world-space tolerance: each track is simplified by itself (Douglas and Peucker
-// 1973), then all are played and measured, and simplified less while the error is too large.
-// Test: tests/bake/reduce_test.cpp
+// Takes keys away within a world-space tolerance: each track is simplified by itself (Douglas and
+// Peucker 1973), then all are played and measured, and simplified less while the error is too
+// large. Test: tests/bake/reduce_test.cpp
 #include "bake/reduce.h"
 
 #include <algorithm>
@@ -15,9 +15,10 @@ constexpr int kAttempts = 24;
 
 /// How far a body's own change is felt: lengths in rig units at rest.
 struct Reach {
-  double limb = 0;      ///< to the farthest base-child, or as long as its own bone: where its rotation is measured
-  double subtree = 0;   ///< to the farthest body below it
-  double scale = 1;     ///< of its parent: a unit of its translation in rig units
+  double limb = 0;  ///< to the farthest base-child, or as long as its own bone: where its rotation
+                    ///< is measured
+  double subtree = 0;  ///< to the farthest body below it
+  double scale = 1;    ///< of its parent: a unit of its translation in rig units
 };
 
 std::vector<Reach> reaches(const scene::Scene& scene, const std::vector<Body>& bodies) {
@@ -31,10 +32,11 @@ std::vector<Reach> reaches(const scene::Scene& scene, const std::vector<Body>& b
     const double length = math::length(origins[i] - origins[at]);
     out[i].scale = std::max(math::length(scene.rest_world(bodies[at].id).linear.x), 1e-12);
     out[at].limb = std::max(out[at].limb, length);
-    out[i].limb = std::max(out[i].limb, length);   // of a leaf: as long as the bone before it
+    out[i].limb = std::max(out[i].limb, length);  // of a leaf: as long as the bone before it
     for (int above = base; above >= 0; above = bodies[static_cast<std::size_t>(above)].base) {
       double& subtree = out[static_cast<std::size_t>(above)].subtree;
-      subtree = std::max(subtree, math::length(origins[i] - origins[static_cast<std::size_t>(above)]));
+      subtree =
+          std::max(subtree, math::length(origins[i] - origins[static_cast<std::size_t>(above)]));
     }
   }
   for (Reach& reach : out) reach.subtree = std::max(reach.subtree, reach.limb);
@@ -53,11 +55,13 @@ double deviation(const Track& track, const std::vector<float>& times, std::size_
   const auto time = [&](std::size_t f) { return static_cast<double>(times[f]); };
   const double t = (time(frame) - time(begin)) / (time(end) - time(begin));
   if (track.path == anim::Path::rotation) {
-    const math::Quat between = math::slerp(quaternion_at(track, begin), quaternion_at(track, end), t);
+    const math::Quat between =
+        math::slerp(quaternion_at(track, begin), quaternion_at(track, end), t);
     const math::Quat here = quaternion_at(track, frame);
     const math::Quat near = math::dot(between, here) < 0 ? -between : between;
-    const double dx = near.x - here.x, dy = near.y - here.y, dz = near.z - here.z, dw = near.w - here.w;
-    return 2 * math::sqrt(dx * dx + dy * dy + dz * dz + dw * dw);   // radians, for small angles
+    const double dx = near.x - here.x, dy = near.y - here.y, dz = near.z - here.z,
+                 dw = near.w - here.w;
+    return 2 * math::sqrt(dx * dx + dy * dy + dz * dz + dw * dw);  // radians, for small angles
   }
   math::Vec3 off;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -99,7 +103,8 @@ void simplify_all(const std::vector<Reach>& reach, const std::vector<float>& tim
   for (Track& track : tracks) {
     if (track.constant) continue;
     const Reach& r = reach[track.body];
-    const double unit = track.path == anim::Path::translation ? r.scale : std::max(r.subtree, 1e-12);
+    const double unit =
+        track.path == anim::Path::translation ? r.scale : std::max(r.subtree, 1e-12);
     track.keys = simplify(track, times, share / unit);
   }
 }
@@ -160,7 +165,7 @@ class Player {
 
   const std::vector<Body>& bodies_;
   const Motion& motion_;
-  std::vector<std::vector<std::pair<anim::Path, anim::Curve>>> curves_;   // by body
+  std::vector<std::vector<std::pair<anim::Path, anim::Curve>>> curves_;  // by body
   std::vector<math::Affine> worlds_;
 };
 
@@ -169,7 +174,9 @@ class Player {
 double reduce(const scene::Scene& scene, const std::vector<Body>& bodies, const Motion& motion,
               const std::vector<float>& times, double tolerance, std::vector<Track>& tracks) {
   const std::vector<Reach> reach = reaches(scene, bodies);
-  const auto measure = [&] { return Player(bodies, motion, times, tracks).largest_error(reach, times); };
+  const auto measure = [&] {
+    return Player(bodies, motion, times, tracks).largest_error(reach, times);
+  };
   double share = tolerance / 2;
   for (int attempt = 0; attempt < kAttempts && times.size() > 2; ++attempt, share /= 2) {
     simplify_all(reach, times, share, tracks);

@@ -9,9 +9,10 @@
 
 namespace rigc::bake {
 
-/// Chooses `keys` of every track so that no joint, and no point at the length of its limb from it, is further than
-/// `tolerance` (rig units) from where it was, in any frame. Gives the largest distance, measured by playing the reduced
-/// tracks; where nothing can be reduced, every frame stays a key.
+/// Chooses `keys` of every track so that no joint, and no point at the length of its limb from it,
+/// is further than `tolerance` (rig units) from where it was, in any frame. Gives the largest
+/// distance, measured by playing the reduced tracks; where nothing can be reduced, every frame
+/// stays a key.
 double reduce(const scene::Scene& scene, const std::vector<Body>& bodies, const Motion& motion,
               const std::vector<float>& times, double tolerance, std::vector<Track>& tracks);
 

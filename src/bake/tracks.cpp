@@ -9,13 +9,16 @@
 namespace rigc::bake {
 namespace {
 
-constexpr double kNoise = 1e-7;             // of the character's size, of a scale
-constexpr double kRotationNoise = 2e-7;     // of a quaternion's number: rounding to floats and normalising
+constexpr double kNoise = 1e-7;  // of the character's size, of a scale
+constexpr double kRotationNoise =
+    2e-7;  // of a quaternion's number: rounding to floats and normalising
 
-/// Largest distance of a body from the origin of the rig, at rest: what translations are measured by.
+/// Largest distance of a body from the origin of the rig, at rest: what translations are measured
+/// by.
 double size_of(const scene::Scene& scene, const std::vector<Body>& bodies) {
   double size = 0;
-  for (const Body& body : bodies) size = std::max(size, math::length(scene.rest_world(body.id).origin));
+  for (const Body& body : bodies)
+    size = std::max(size, math::length(scene.rest_world(body.id).origin));
   return size;
 }
 
@@ -57,9 +60,10 @@ std::vector<Track> find_tracks(const scene::Scene& scene, const std::vector<Body
     standing.rotation = math::normalised(standing.rotation);
     for (const anim::Path path :
          {anim::Path::translation, anim::Path::rotation, anim::Path::scale}) {
-      const double noise = path == anim::Path::translation ? translation_noise(bodies[b], motion, b, size)
-                           : path == anim::Path::rotation  ? kRotationNoise
-                                                           : kNoise;
+      const double noise = path == anim::Path::translation
+                               ? translation_noise(bodies[b], motion, b, size)
+                           : path == anim::Path::rotation ? kRotationNoise
+                                                          : kNoise;
       const Numbers at_rest = numbers_of(standing, path);
       const Numbers first = numbers_of(motion.locals[b][0], path);
       bool moves = false, differs = differ(first, at_rest, noise);
@@ -70,7 +74,7 @@ std::vector<Track> find_tracks(const scene::Scene& scene, const std::vector<Body
       for (std::size_t f = 0; f < (moves ? frames : 1); ++f) {
         const Numbers n = numbers_of(motion.locals[b][f], path);
         for (std::size_t i = 0; i < static_cast<std::size_t>(track.width); ++i)
-          track.values.push_back(static_cast<float>(n[i]) + 0.0f);   // no negative zeros
+          track.values.push_back(static_cast<float>(n[i]) + 0.0f);  // no negative zeros
       }
       tracks.push_back(std::move(track));
     }

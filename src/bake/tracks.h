@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes channels of a motion: which of a joint's translation, rotation and scale need one, and with how
-// many keys. Test: tests/bake/tracks_test.cpp
+// Makes channels of a motion: which of a joint's translation, rotation and scale need one, and with
+// how many keys. Test: tests/bake/bake_test.cpp
 #pragma once
 
 #include <vector>
@@ -15,12 +15,13 @@ struct Track {
   std::size_t body = 0;
   anim::Path path = anim::Path::translation;
   int width = 3;
-  std::vector<float> values;             ///< [frames][width]; of a constant track [1][width]
-  std::vector<std::uint32_t> keys;       ///< frames that become keys, rising; empty: all
+  std::vector<float> values;        ///< [frames][width]; of a constant track [1][width]
+  std::vector<std::uint32_t> keys;  ///< frames that become keys, rising; empty: all
   bool constant = false;
 };
 
-/// Tracks that are needed: a joint's value differs from what stands in its file, by more than the noise of 32-bit floats.
+/// Tracks that are needed: a joint's value differs from what stands in its file, by more than the
+/// noise of 32-bit floats.
 std::vector<Track> find_tracks(const scene::Scene& scene, const std::vector<Body>& bodies,
                                const Motion& motion);
 

@@ -265,7 +265,6 @@ class Compiler {
     if (is_euler_view(plug) && key.beneath) {
       return {Step::to_euler, {{{plug.node, transform::kRotation}, true}}, 0, 4};
     }
-    if (const auto source = scene_.source(plug)) return alias({*source}, 0, width);
     if (has_component_source(plug)) {
       Plan plan{Step::gather, {}, 0, width};
       for (std::uint32_t c = 0; c < width; ++c) {
@@ -275,6 +274,7 @@ class Compiler {
       }
       return plan;
     }
+    if (const auto source = scene_.source(plug)) return alias({*source}, 0, width);
     if (input_at(plug)) return {Step::input, {}, 0, width};
     if (is_euler_view(plug)) return alias({plug, true}, 0, width);
     return {};

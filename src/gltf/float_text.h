@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers as glTF stores them: 32-bit floats, as text and as bytes. Test: tests/gltf/float_text_test.cpp
+// Numbers as glTF stores them: 32-bit floats, as text and as bytes. Test:
+// tests/gltf/float_text_test.cpp
 #pragma once
 
 #include <cstddef>

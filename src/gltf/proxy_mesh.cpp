@@ -14,9 +14,9 @@ namespace {
 
 using scene::NodeId;
 
-constexpr std::size_t kPartWidth = 15;   // numbers of a part in scene::mesh::kParts
+constexpr std::size_t kPartWidth = 15;  // numbers of a part in scene::mesh::kParts
 constexpr int kVertexTarget = 34962, kIndexTarget = 34963;
-constexpr double kLargest = 1e30;        // of a coordinate
+constexpr double kLargest = 1e30;  // of a coordinate
 
 ProxyPart part_of(const double* n) {
   ProxyPart part;
@@ -34,7 +34,7 @@ ProxyPart part_of(const double* n) {
 struct Colored {
   math::Vec3 color;
   Surface surface;
-  std::vector<std::size_t> joints;   ///< of the skin, one for each point
+  std::vector<std::size_t> joints;  ///< of the skin, one for each point
 };
 
 void add(Colored& to, const Surface& from, const math::Affine& world, std::size_t joint) {

@@ -8,8 +8,8 @@
 namespace rigc::gltf {
 namespace {
 
-constexpr std::uint32_t kSegments = 16;   // around the bone
-constexpr std::uint32_t kRings = 4;       // of each half sphere
+constexpr std::uint32_t kSegments = 16;  // around the bone
+constexpr std::uint32_t kRings = 4;      // of each half sphere
 constexpr double kThinnest = 1e-9;
 
 /// Axes of a piece, right-handed: across, across, along the bone.
@@ -23,9 +23,10 @@ Frame frame_of(const ProxyPart& part) {
   return {frame.y, frame.z, frame.x};
 }
 
-/// Point of a half-sphere's ring, `latitude` from the equator toward the tail, `longitude` about the bone.
-void add_ring_point(Surface& out, const ProxyPart& part, const Frame& frame, const math::Vec3& center,
-                    double latitude, double longitude) {
+/// Point of a half-sphere's ring, `latitude` from the equator toward the tail, `longitude` about
+/// the bone.
+void add_ring_point(Surface& out, const ProxyPart& part, const Frame& frame,
+                    const math::Vec3& center, double latitude, double longitude) {
   const double across = std::max(part.width / 2, kThinnest);
   const double deep = std::max(part.depth / 2, kThinnest);
   const double cap = std::min(across, deep);
@@ -38,7 +39,8 @@ void add_ring_point(Surface& out, const ProxyPart& part, const Frame& frame, con
       frame.side * (x / across) + frame.front * (y / deep) + frame.along * (z / cap), frame.along));
 }
 
-/// From pole to pole: a half sphere about the head, one about the tail; between them the equators are joined.
+/// From pole to pole: a half sphere about the head, one about the tail; between them the equators
+/// are joined.
 Surface capsule(const ProxyPart& part) {
   Surface out;
   const Frame frame = frame_of(part);
@@ -53,7 +55,9 @@ Surface capsule(const ProxyPart& part) {
   }
   add_ring_point(out, part, frame, part.tail, math::kPi / 2, 0);
 
-  const auto at = [](std::uint32_t ring, std::uint32_t i) { return 1 + ring * kSegments + i % kSegments; };
+  const auto at = [](std::uint32_t ring, std::uint32_t i) {
+    return 1 + ring * kSegments + i % kSegments;
+  };
   const std::uint32_t top = at(2 * kRings, 0);
   for (std::uint32_t i = 0; i < kSegments; ++i) {
     out.indices.insert(out.indices.end(), {0, at(0, i + 1), at(0, i)});
@@ -61,8 +65,7 @@ Surface capsule(const ProxyPart& part) {
       out.indices.insert(out.indices.end(), {at(ring, i), at(ring, i + 1), at(ring + 1, i + 1)});
       out.indices.insert(out.indices.end(), {at(ring, i), at(ring + 1, i + 1), at(ring + 1, i)});
     }
-    out.indices.insert(out.indices.end(),
-                       {top, at(2 * kRings - 1, i), at(2 * kRings - 1, i + 1)});
+    out.indices.insert(out.indices.end(), {top, at(2 * kRings - 1, i), at(2 * kRings - 1, i + 1)});
   }
   return out;
 }

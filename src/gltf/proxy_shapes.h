@@ -12,17 +12,17 @@ namespace rigc::gltf {
 /// One piece of a proxy mesh, in the space of its joint.
 struct ProxyPart {
   bool box = false;
-  math::Vec3 head, tail;       ///< ends of the bone
-  math::Vec3 side{1, 0, 0};    ///< unit, direction of `width`
-  double width = 0;            ///< full extents across the bone
+  math::Vec3 head, tail;     ///< ends of the bone
+  math::Vec3 side{1, 0, 0};  ///< unit, direction of `width`
+  double width = 0;          ///< full extents across the bone
   double depth = 0;
-  math::Vec3 color;            ///< sRGB 0..1
+  math::Vec3 color;  ///< sRGB 0..1
 };
 
 /// Triangles with outward normals, counter-clockwise seen from outside.
 struct Surface {
   std::vector<math::Vec3> points;
-  std::vector<math::Vec3> normals;   ///< unit, one for each point
+  std::vector<math::Vec3> normals;  ///< unit, one for each point
   std::vector<std::uint32_t> indices;
 };
 

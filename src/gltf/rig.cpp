@@ -23,10 +23,11 @@ struct ArrayRow {
   const char* name;
   Range Owned::Part::*range;
 };
-constexpr ArrayRow kArrays[] = {
-    {"meshes", &Owned::Part::meshes},       {"materials", &Owned::Part::materials},
-    {"skins", &Owned::Part::skins},         {"accessors", &Owned::Part::accessors},
-    {"bufferViews", &Owned::Part::buffer_views}};
+constexpr ArrayRow kArrays[] = {{"meshes", &Owned::Part::meshes},
+                                {"materials", &Owned::Part::materials},
+                                {"skins", &Owned::Part::skins},
+                                {"accessors", &Owned::Part::accessors},
+                                {"bufferViews", &Owned::Part::buffer_views}};
 
 /// Sets the ranges of a part to what the arrays have from now on.
 void begin_part(const Patch& patch, Owned::Part& part) {
@@ -42,7 +43,8 @@ void end_part(const Patch& patch, Owned::Part& part) {
 }
 
 /// Gives every scene node its glTF node, in the order in which they will be appended.
-void number_nodes(Rig& rig, const NodePlan& plan, int first, const std::vector<ProxyGroup>& proxies) {
+void number_nodes(Rig& rig, const NodePlan& plan, int first,
+                  const std::vector<ProxyGroup>& proxies) {
   rig.nodes = plan.foreign;
   int next = first;
   for (const NodeId id : plan.stays) rig.nodes[id.index] = next++;
@@ -54,7 +56,8 @@ void number_nodes(Rig& rig, const NodePlan& plan, int first, const std::vector<P
   for (const NodeId id : plan.goes) rig.nodes[id.index] = next++;
 }
 
-/// Appends meshes and skins of proxies and gives the texts of their nodes; empty where a number is too large.
+/// Appends meshes and skins of proxies and gives the texts of their nodes; empty where a number is
+/// too large.
 std::optional<std::vector<std::string>> write_proxies(Patch& patch, const Rig& rig,
                                                       const std::vector<ProxyGroup>& proxies,
                                                       Diagnostics& diagnostics) {
@@ -66,9 +69,9 @@ std::optional<std::vector<std::string>> write_proxies(Patch& patch, const Rig& r
     const std::string extras = first ? extras_text(rig, mesh) : std::string();
     const auto text = write_proxy(patch, rig.scene, rig.nodes, proxies[i], extras);
     if (!text) {
-      diagnostics.report(
-          codes::kNotWritable, rig.scene[mesh].origin.span,
-          fmt::format("the proxy mesh \"{}\" is larger than 1e30", printable(rig.scene[mesh].name)));
+      diagnostics.report(codes::kNotWritable, rig.scene[mesh].origin.span,
+                         fmt::format("the proxy mesh \"{}\" is larger than 1e30",
+                                     printable(rig.scene[mesh].name)));
       return std::nullopt;
     }
     texts.push_back(*text);
@@ -84,9 +87,10 @@ std::vector<int> write_shapes(Patch& patch, const scene::Scene& scene) {
   for (const NodeId id : scene.nodes()) {
     const scene::Node& node = scene[id];
     if (node.kind != scene::Kind::control) continue;
-    meshes[id.index] = shapes.mesh(std::get<std::vector<double>>(node.attributes[control::kPoints][0]),
-                                   std::get<math::Vec3>(node.attributes[control::kColor][0]),
-                                   std::get<std::string>(node.attributes[control::kShape][0]));
+    meshes[id.index] =
+        shapes.mesh(std::get<std::vector<double>>(node.attributes[control::kPoints][0]),
+                    std::get<math::Vec3>(node.attributes[control::kColor][0]),
+                    std::get<std::string>(node.attributes[control::kShape][0]));
   }
   return meshes;
 }
@@ -128,7 +132,8 @@ void join_to_model(Patch& patch, const Rig& rig, const NodePlan& plan, int ances
   }
 }
 
-/// RIGC_rig with this rig in the place of the one with its id, if there is one, else behind the others.
+/// RIGC_rig with this rig in the place of the one with its id, if there is one, else behind the
+/// others.
 std::string extension_text(const std::string& before, const Rig& rig, const Sources& sources) {
   std::vector<std::pair<std::int64_t, std::string>> rigs;
   Diagnostics none;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A built rig as it is written into and read from a file, and taken out of it again. The text of a rig is
-// rig_json.h's; docs/RIGC_rig.md describes it. Test: tests/gltf/rig_test.cpp
+// A built rig as it is written into and read from a file, and taken out of it again. The text of a
+// rig is rig_json.h's; docs/RIGC_rig.md describes it. Test: tests/gltf/rig_test.cpp
 #pragma once
 
 #include <optional>
@@ -19,11 +19,11 @@ namespace rigc::gltf {
 /// One executed command, for inspect and for messages.
 struct CommandRecord {
   JointKey holder;
-  std::string joint;         ///< name of the joint that holds it
+  std::string joint;  ///< name of the joint that holds it
   std::string id;
   std::string module;
-  bool ran = true;           ///< false: skipped because an optional selector was empty
-  std::string file;          ///< of the template line
+  bool ran = true;   ///< false: skipped because an optional selector was empty
+  std::string file;  ///< of the template line
   int line = 0;
 };
 
@@ -35,54 +35,63 @@ struct Range {
   bool operator==(const Range&) const = default;
 };
 
-/// What a rig appended to its file, in two parts, each at the end of its arrays when it was written: so that taking
-/// the second away leaves no holes.
+/// What a rig appended to its file, in two parts, each at the end of its arrays when it was
+/// written: so that taking the second away leaves no holes.
 struct Owned {
   struct Part {
     Range nodes, meshes, materials, skins, accessors, buffer_views;
     bool operator==(const Part&) const = default;
   };
-  Part stays;                        ///< joints and proxy meshes: part of a stripped character too
-  Part goes;                         ///< controls, zeros, handles, and the controls' shapes
-  std::uint64_t buffer_length = 0;   ///< of buffer 0 before the rig
+  Part stays;                       ///< joints and proxy meshes: part of a stripped character too
+  Part goes;                        ///< controls, zeros, handles, and the controls' shapes
+  std::uint64_t buffer_length = 0;  ///< of buffer 0 before the rig
   bool operator==(const Owned&) const = default;
 };
 
 struct Rig {
-  std::uint32_t id = 0;                       ///< number of the rig, unique in its file
+  std::uint32_t id = 0;  ///< number of the rig, unique in its file
   tags::TaggedSkeleton skeleton;
   tags::Settings settings;
-  std::vector<std::pair<std::string, int>> modules;   ///< name and version of each that made something
-  std::vector<CommandRecord> commands;        ///< in the order they ran; Node::command is an index into it
+  std::vector<std::pair<std::string, int>>
+      modules;  ///< name and version of each that made something
+  std::vector<CommandRecord>
+      commands;  ///< in the order they ran; Node::command is an index into it
   scene::Scene scene;
-  std::vector<int> nodes;                     ///< glTF node of each scene node, -1: none (constraints and other utilities)
-  int ancestor = -1;                          ///< glTF node that the rig's roots are under: the rig's space; -1: the scene
+  std::vector<int>
+      nodes;          ///< glTF node of each scene node, -1: none (constraints and other utilities)
+  int ancestor = -1;  ///< glTF node that the rig's roots are under: the rig's space; -1: the scene
   Owned owned;
 };
 
-/// Appends a rig to a file (or to empty_file()): nodes, control shapes, proxy mesh and skin, RIGC_rig, identities.
-/// Joints with a foreign node keep it untouched but for extras.rigc and children of ours. `ancestor`: node that the
-/// rig's roots go under, -1: the scene. Other rigs of the file stay. Fills rig.nodes and rig.owned.
+/// Appends a rig to a file (or to empty_file()): nodes, control shapes, proxy mesh and skin,
+/// RIGC_rig, identities. Joints with a foreign node keep it untouched but for extras.rigc and
+/// children of ours. `ancestor`: node that the rig's roots go under, -1: the scene. Other rigs of
+/// the file stay. Fills rig.nodes and rig.owned.
 bool write_rig(Patch& patch, Rig& rig, int ancestor, Diagnostics& diagnostics);
 
-/// All rigs of a file, ordered by id, with what animators set without keying (transforms, extras) taken over
-/// into the scenes. A file without any gives an empty list. A RIGC_rig that lies about itself is an error.
+/// All rigs of a file, ordered by id, with what animators set without keying (transforms, extras)
+/// taken over into the scenes. A file without any gives an empty list. A RIGC_rig that lies about
+/// itself is an error.
 std::optional<std::vector<Rig>> read_rigs(const File& file, Diagnostics& diagnostics);
 
-/// Takes rigs out of their file: controls with their shapes, identities and RIGC_rig go; joints, proxy meshes, and
-/// all that others added stay. Comes before anything is appended to the patch: then indices and bytes at the end are
-/// cut, else placeholders remain. Gives the glTF nodes that are gone: channels on them are the caller's to drop.
+/// Takes rigs out of their file: controls with their shapes, identities and RIGC_rig go; joints,
+/// proxy meshes, and all that others added stay. Comes before anything is appended to the patch:
+/// then indices and bytes at the end are cut, else placeholders remain. Gives the glTF nodes that
+/// are gone: channels on them are the caller's to drop.
 std::set<int> strip_rigs(Patch& patch, const File& file, const std::vector<Rig>& rigs);
-inline void strip_rig(Patch& patch, const File& file, const Rig& rig) { strip_rigs(patch, file, {rig}); }
+inline void strip_rig(Patch& patch, const File& file, const Rig& rig) {
+  strip_rigs(patch, file, {rig});
+}
 
-/// Where a joint's node stands in its file, which may differ from the scene: a foreign node keeps its parent and the
-/// transform that its author left it in.
+/// Where a joint's node stands in its file, which may differ from the scene: a foreign node keeps
+/// its parent and the transform that its author left it in.
 struct Standing {
-  scene::NodeId base;            ///< nearest node of the rig above it in the file; invalid: the rig's space
-  math::Affine between;          ///< from the base (or the rig's space) to the node's parent in the file
-  math::Trs local;               ///< of the node in the file
+  scene::NodeId base;    ///< nearest node of the rig above it in the file; invalid: the rig's space
+  math::Affine between;  ///< from the base (or the rig's space) to the node's parent in the file
+  math::Trs local;       ///< of the node in the file
 };
 /// By scene node; meaningful where the rig has a glTF node.
-std::optional<std::vector<Standing>> standings(const File& file, const Rig& rig, Diagnostics& diagnostics);
+std::optional<std::vector<Standing>> standings(const File& file, const Rig& rig,
+                                               Diagnostics& diagnostics);
 
 }  // namespace rigc::gltf

@@ -19,7 +19,9 @@ constexpr double kLargest = 1e30;
 
 struct Fits {
   bool operator()(double n) const { return std::abs(n) <= kLargest; }
-  bool operator()(const math::Vec3& v) const { return (*this)(v.x) && (*this)(v.y) && (*this)(v.z); }
+  bool operator()(const math::Vec3& v) const {
+    return (*this)(v.x) && (*this)(v.y) && (*this)(v.z);
+  }
   bool operator()(const math::Quat& q) const {
     return (*this)(math::Vec3{q.x, q.y, q.z}) && (*this)(q.w);
   }
@@ -45,10 +47,11 @@ void check_node(const scene::Scene& scene, NodeId id, Diagnostics& diagnostics) 
   for (std::size_t i = 0; i < attributes.size(); ++i) {
     if (attributes[i].role == scene::Role::output) continue;
     if (node.attributes[i].size() > kMostElements)
-      diagnostics.report(codes::kRigTooLarge, node.origin.span,
-                         fmt::format("\"{}\" of node \"{}\" has {} elements; at most {} are allowed",
-                                     attributes[i].name, printable(node.name),
-                                     node.attributes[i].size(), kMostElements));
+      diagnostics.report(
+          codes::kRigTooLarge, node.origin.span,
+          fmt::format("\"{}\" of node \"{}\" has {} elements; at most {} are allowed",
+                      attributes[i].name, printable(node.name), node.attributes[i].size(),
+                      kMostElements));
     for (const scene::Value& value : node.attributes[i]) {
       if (std::visit(Fits{}, value)) continue;
       report(attributes[i].name);

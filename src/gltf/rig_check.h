@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether a rig can be written, so that what was written can be read again. Test: tests/gltf/rig_test.cpp
+// Whether a rig can be written, so that what was written can be read again. Test:
+// tests/gltf/rig_test.cpp
 #pragma once
 
 #include "gltf/rig.h"

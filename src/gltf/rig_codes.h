@@ -13,7 +13,8 @@ inline constexpr Code kRigVersion{
     "The rig was written by a newer rigc, or `version` is missing. Use that version of rigc."};
 inline constexpr Code kRigType{
     701, Severity::error, "missing or wrong type in RIGC_rig",
-    "A member of the rig's data is missing or has another JSON type than docs/RIGC_rig.md says. The "
+    "A member of the rig's data is missing or has another JSON type than docs/RIGC_rig.md says. "
+    "The "
     "file was edited by hand or damaged; build it again from its template."};
 inline constexpr Code kRigIndex{
     702, Severity::error, "index out of range in RIGC_rig",
@@ -21,46 +22,46 @@ inline constexpr Code kRigIndex{
 inline constexpr Code kRigWord{
     703, Severity::error, "unknown word in RIGC_rig",
     "The rig's data name a kind, an attribute or a flavour that rigc does not have."};
-inline constexpr Code kRigText{
-    704, Severity::error, "bad text in RIGC_rig",
-    "Uids are 16 hex digits, identities `rig:owner:holder:command:role:counter`, names of attributes "
-    "letters, digits, `_` and `-`."};
+inline constexpr Code kRigText{704, Severity::error, "bad text in RIGC_rig",
+                               "Uids are 16 hex digits, identities "
+                               "`rig:owner:holder:command:role:counter`, names of attributes "
+                               "letters, digits, `_` and `-`."};
 inline constexpr Code kRigDuplicate{
     705, Severity::error, "duplicate in RIGC_rig",
     "Ids of rigs, keys of joints, identities, connected plugs and names of attributes are unique."};
-inline constexpr Code kRigHierarchy{
-    706, Severity::error, "bad hierarchy in RIGC_rig",
-    "Parents and children of the rig's nodes contradict each other, lead back to themselves, or are "
-    "nested more than 1,024 deep."};
+inline constexpr Code kRigHierarchy{706, Severity::error, "bad hierarchy in RIGC_rig",
+                                    "Parents and children of the rig's nodes contradict each "
+                                    "other, lead back to themselves, or are "
+                                    "nested more than 1,024 deep."};
 inline constexpr Code kRigConnection{
     707, Severity::error, "bad connection in RIGC_rig",
     "A connection leads from a plug to an input of the same type; both must exist."};
 inline constexpr Code kRigValue{
     708, Severity::error, "value does not fit in RIGC_rig",
     "The value of an attribute has another type, or another count of numbers, than its kind says."};
-inline constexpr Code kRigTooLarge{
-    709, Severity::error, "rig is too large",
-    "A rig has at most 65,536 joints, 262,144 nodes and 262,144 commands, a file at most 1,024 rigs."};
+inline constexpr Code kRigTooLarge{709, Severity::error, "rig is too large",
+                                   "A rig has at most 65,536 joints, 262,144 nodes and 262,144 "
+                                   "commands, a file at most 1,024 rigs."};
 
 // Rigs in nodes.
-inline constexpr Code kSameIdentity{
-    715, Severity::error, "two nodes with one identity",
-    "extras.rigc says which node of the rig a glTF node is. Somebody copied one; remove extras.rigc "
-    "from the copy."};
+inline constexpr Code kSameIdentity{715, Severity::error, "two nodes with one identity",
+                                    "extras.rigc says which node of the rig a glTF node is. "
+                                    "Somebody copied one; remove extras.rigc "
+                                    "from the copy."};
 inline constexpr Code kNodeLost{
     716, Severity::warning, "node of the rig is gone",
     "The file has no node that stands for this part of the rig: another program removed it."};
 inline constexpr Code kExtraNotNumber{
     717, Severity::warning, "attribute is not a number",
     "Attributes of controls are plain numbers in extras. The value of the rig is used instead."};
-inline constexpr Code kNotWritable{
-    718, Severity::error, "number cannot be written",
-    "A value of the rig is not finite, or too large for the 32-bit numbers of glTF. Look at sizes and "
-    "scales in the template."};
+inline constexpr Code kNotWritable{718, Severity::error, "number cannot be written",
+                                   "A value of the rig is not finite, or too large for the 32-bit "
+                                   "numbers of glTF. Look at sizes and "
+                                   "scales in the template."};
 
 inline constexpr const Code* kRigCodes[] = {
-    &kRigVersion,   &kRigType,       &kRigIndex, &kRigWord,     &kRigText,
-    &kRigDuplicate, &kRigHierarchy,  &kRigConnection, &kRigValue, &kRigTooLarge,
-    &kSameIdentity, &kNodeLost,      &kExtraNotNumber, &kNotWritable};
+    &kRigVersion,   &kRigType,      &kRigIndex,       &kRigWord,    &kRigText,
+    &kRigDuplicate, &kRigHierarchy, &kRigConnection,  &kRigValue,   &kRigTooLarge,
+    &kSameIdentity, &kNodeLost,     &kExtraNotNumber, &kNotWritable};
 
 }  // namespace rigc::gltf::codes

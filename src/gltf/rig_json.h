@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A rig as the text of one entry of RIGC_rig's `rigs`, and back. Everything is checked on the way in.
-// The format: docs/RIGC_rig.md, docs/schema/RIGC_rig.schema.json. Test: tests/gltf/rig_json_test.cpp
+// A rig as the text of one entry of RIGC_rig's `rigs`, and back. Everything is checked on the way
+// in. The format: docs/RIGC_rig.md, docs/schema/RIGC_rig.schema.json. Test:
+// tests/gltf/rig_json_test.cpp
 #pragma once
 
 #include <optional>
@@ -15,14 +16,15 @@ inline constexpr std::size_t kMostRigs = 1024;
 inline constexpr std::size_t kMostJoints = 65536;
 inline constexpr std::size_t kMostNodes = 262144;
 inline constexpr std::size_t kMostDepth = 1024;
-inline constexpr std::size_t kMostElements = 4096;   ///< of an array attribute
+inline constexpr std::size_t kMostElements = 4096;  ///< of an array attribute
 
-/// One JSON object. Names of files are made relative to the main template's folder, so that the same rig gives the
-/// same text wherever it was built.
+/// One JSON object. Names of files are made relative to the main template's folder, so that the
+/// same rig gives the same text wherever it was built.
 std::string to_json(const Rig& rig, const Sources& sources);
 
-/// The reverse; `file` is the name for messages. Sources of the rig's files are added without their texts.
-/// Indices of glTF nodes are only checked not to be below -1.
-std::optional<Rig> from_json(const json::Value& object, const std::string& file, Diagnostics& diagnostics);
+/// The reverse; `file` is the name for messages. Sources of the rig's files are added without their
+/// texts. Indices of glTF nodes are only checked not to be below -1.
+std::optional<Rig> from_json(const json::Value& object, const std::string& file,
+                             Diagnostics& diagnostics);
 
 }  // namespace rigc::gltf

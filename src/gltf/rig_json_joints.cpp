@@ -140,7 +140,8 @@ tags::TaggedJoint read_joint(const json::Value& item, JsonReader& reader, PlaceR
     JointKey key;
     if (reader.read(was, key)) joint.was.push_back(key);
   }
-  reader.get(item, "parent", 0, static_cast<std::int64_t>(skeleton.joints.size()) - 1, joint.parent);
+  reader.get(item, "parent", 0, static_cast<std::int64_t>(skeleton.joints.size()) - 1,
+             joint.parent);
   read_identifiers(item, reader, skeleton.global, joint.ids);
   reader.get(item, "translation", joint.rest.translation);
   reader.get(item, "rotation", joint.rest.rotation);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads members of JSON objects into plain values and reports what does not fit, with JSON pointers.
-// Test: tests/gltf/rig_json_test.cpp
+// Reads members of JSON objects into plain values and reports what does not fit, with JSON
+// pointers. Test: tests/gltf/rig_json_test.cpp
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,8 @@ namespace rigc::gltf {
 
 enum class Need : std::uint8_t { optional, required };
 
-/// Each function gives false, and leaves `out`, where it reported an error or the member is missing.
+/// Each function gives false, and leaves `out`, where it reported an error or the member is
+/// missing.
 class JsonReader {
  public:
   JsonReader(std::string file, Diagnostics& diagnostics)
@@ -34,7 +35,8 @@ class JsonReader {
   bool read(const json::Value& value, std::string& out);
   bool read(const json::Value& value, math::Vec3& out);
   bool read(const json::Value& value, math::Quat& out);
-  bool read(const json::Value& value, math::Affine& out);   ///< 12 numbers: columns x, y, z, then the origin
+  bool read(const json::Value& value,
+            math::Affine& out);  ///< 12 numbers: columns x, y, z, then the origin
   bool read(const json::Value& value, JointKey& out);
   bool read(const json::Value& value, Identity& out);
   bool read(const json::Value& value, std::vector<double>& out);
@@ -49,8 +51,8 @@ class JsonReader {
   }
   /// A whole number in `low`..`high`.
   template <class T>
-  bool get(const json::Value& object, std::string_view key, std::int64_t low, std::int64_t high, T& out,
-           Need need = Need::optional) {
+  bool get(const json::Value& object, std::string_view key, std::int64_t low, std::int64_t high,
+           T& out, Need need = Need::optional) {
     const json::Value value = member(object, key, need);
     std::int64_t number = 0;
     if (!value || !whole(value, low, high, number)) return false;
@@ -58,8 +60,8 @@ class JsonReader {
     return true;
   }
   /// Elements of an array, all of them objects; more than `most` are an error.
-  std::vector<json::Value> objects(const json::Value& object, std::string_view key, std::size_t most,
-                                   Need need = Need::optional);
+  std::vector<json::Value> objects(const json::Value& object, std::string_view key,
+                                   std::size_t most, Need need = Need::optional);
   /// Elements of an array; empty where it is missing.
   std::vector<json::Value> items(const json::Value& object, std::string_view key);
   std::vector<std::pair<std::string, json::Value>> members(const json::Value& object,

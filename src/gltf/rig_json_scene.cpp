@@ -53,22 +53,26 @@ std::string node_text(const Rig& rig, NodeId id, PlaceWriter& places) {
   write_values(writer, rig.scene, id);
   const Origin usual = usual_origin(rig, node);
   if (node.origin.joint != usual.joint || node.origin.command != usual.command)
-    writer.key("origin").begin_array().value(node.origin.joint).value(node.origin.command).end_array();
+    writer.key("origin")
+        .begin_array()
+        .value(node.origin.joint)
+        .value(node.origin.command)
+        .end_array();
   places.write(writer, node.origin.span);
   return writer.end_object().take();
 }
 
 /// Parents and children as RIGC_rig gives them, checked.
 struct Hierarchy {
-  std::vector<std::int64_t> parents;                  ///< -1: none
-  std::vector<std::vector<std::uint32_t>> children;   ///< only of those that list them
+  std::vector<std::int64_t> parents;                 ///< -1: none
+  std::vector<std::vector<std::uint32_t>> children;  ///< only of those that list them
   std::vector<bool> listed;
 };
 
 /// Every node's way up ends, and soon enough.
 void check_depths(const std::vector<json::Value>& items, const Hierarchy& hierarchy,
                   JsonReader& reader) {
-  std::vector<std::size_t> depths(items.size(), 0);   // 0: not known
+  std::vector<std::size_t> depths(items.size(), 0);  // 0: not known
   std::vector<std::size_t> path;
   for (std::size_t i = 0; i < items.size(); ++i) {
     path.clear();
@@ -99,7 +103,8 @@ void read_children(const std::vector<json::Value>& items, JsonReader& reader, Hi
     for (const json::Value& item : reader.items(items[i], "children")) {
       std::int64_t child = 0;
       if (!reader.whole(item, 0, last, child)) continue;
-      const bool mine = out.parents[static_cast<std::size_t>(child)] == static_cast<std::int64_t>(i);
+      const bool mine =
+          out.parents[static_cast<std::size_t>(child)] == static_cast<std::int64_t>(i);
       if (!mine || !seen.insert(child).second)
         reader.fail(codes::kRigHierarchy, item,
                     mine ? "the child is listed twice" : "the child names another parent");
@@ -143,9 +148,11 @@ void read_origin(const json::Value& item, JsonReader& reader, PlaceReader& place
   node.origin.span = places.read(item);
 }
 
-/// A node without hierarchy and values; empty where something is wrong. `keys`: of the skeleton's joints.
-std::optional<scene::Node> read_node(const json::Value& item, JsonReader& reader, PlaceReader& places,
-                                     const Rig& rig, const std::set<JointKey>& keys) {
+/// A node without hierarchy and values; empty where something is wrong. `keys`: of the skeleton's
+/// joints.
+std::optional<scene::Node> read_node(const json::Value& item, JsonReader& reader,
+                                     PlaceReader& places, const Rig& rig,
+                                     const std::set<JointKey>& keys) {
   scene::Node node;
   std::string kind_name;
   const bool complete = reader.get(item, "kind", kind_name, Need::required) &&
@@ -164,21 +171,23 @@ std::optional<scene::Node> read_node(const json::Value& item, JsonReader& reader
   if (!node.is_skeleton()) node.module = rig.commands[node.command].module;
   read_origin(item, reader, places, rig, node);
   if (node.identity.rig != rig.id) {
-    reader.fail(codes::kRigText, item["identity"],
-                fmt::format("the identity is of rig {}, this is rig {}", node.identity.rig, rig.id));
+    reader.fail(
+        codes::kRigText, item["identity"],
+        fmt::format("the identity is of rig {}, this is rig {}", node.identity.rig, rig.id));
     return std::nullopt;
   }
   const bool is_joint = node.kind == scene::Kind::joint && node.identity.command.empty();
   if (node.is_skeleton() && (!is_joint || keys.count(node.identity.owner) == 0)) {
-    reader.fail(codes::kRigIndex, item, "no command made the node, and it is no joint of the skeleton");
+    reader.fail(codes::kRigIndex, item,
+                "no command made the node, and it is no joint of the skeleton");
     return std::nullopt;
   }
   return node;
 }
 
 /// Makes the nodes and hangs those under parents that list them; false where something was wrong.
-bool make_nodes(const std::vector<json::Value>& items, const Hierarchy& hierarchy, JsonReader& reader,
-                PlaceReader& places, Rig& rig, SceneMaker& maker) {
+bool make_nodes(const std::vector<json::Value>& items, const Hierarchy& hierarchy,
+                JsonReader& reader, PlaceReader& places, Rig& rig, SceneMaker& maker) {
   std::set<Identity> identities;
   std::set<JointKey> keys;
   for (const tags::TaggedJoint& joint : rig.skeleton.joints) keys.insert(joint.key);

@@ -96,7 +96,8 @@ void read_shapes(const json::Value& rig, JsonReader& reader, tags::TaggedSkeleto
     for (const json::Value& line : reader.items(item, "lines")) {
       std::vector<double> flat;
       if (!reader.read(line, flat)) continue;
-      if (flat.size() % 3 != 0) reader.fail(codes::kRigValue, line, "points have three coordinates");
+      if (flat.size() % 3 != 0)
+        reader.fail(codes::kRigValue, line, "points have three coordinates");
       std::vector<math::Vec3>& points = shape.lines.emplace_back();
       for (std::size_t i = 0; i + 2 < flat.size(); i += 3)
         points.push_back({flat[i], flat[i + 1], flat[i + 2]});
@@ -185,10 +186,12 @@ void read_settings(const json::Value& rig, JsonReader& reader, tags::Settings& o
   }
 }
 
-void write_skeleton(json::Writer& writer, const tags::TaggedSkeleton& skeleton, PlaceWriter& places) {
+void write_skeleton(json::Writer& writer, const tags::TaggedSkeleton& skeleton,
+                    PlaceWriter& places) {
   writer.member("name", skeleton.name).member("global", skeleton.global);
   write_templates(writer, skeleton);
-  if (!skeleton.module_pins.empty()) write_versions(writer.key("module_pins"), skeleton.module_pins);
+  if (!skeleton.module_pins.empty())
+    write_versions(writer.key("module_pins"), skeleton.module_pins);
   write_features(writer, skeleton.features);
   write_shapes(writer, skeleton.shapes);
   write_character(writer, skeleton.character);

@@ -21,7 +21,7 @@ using scene::Type;
 using scene::Value;
 
 constexpr std::array<std::string_view, 4> kFlavours = {"number", "integer", "boolean", "angle"};
-constexpr std::size_t kMostUser = 900;   // plugs number them in 16 bits from 1000; nobody needs more
+constexpr std::size_t kMostUser = 900;  // plugs number them in 16 bits from 1000; nobody needs more
 
 /// Whether an attribute is stored: outputs are computed, and `rotate` is a view of `rotation`.
 bool is_stored(const scene::KindSpec& kind, std::size_t attribute) {
@@ -35,7 +35,9 @@ struct Write {
   void operator()(const math::Vec3& v) const { writer.numbers(&v.x, 3); }
   void operator()(const math::Quat& q) const { writer.numbers(&q.x, 4); }
   void operator()(const std::string& text) const { writer.value(text); }
-  void operator()(const std::vector<double>& list) const { writer.numbers(list.data(), list.size()); }
+  void operator()(const std::vector<double>& list) const {
+    writer.numbers(list.data(), list.size());
+  }
   void operator()(const math::Affine& a) const {
     std::array<double, 12> n;
     std::size_t i = 0;
@@ -115,8 +117,8 @@ std::optional<Value> read_value(const json::Value& value, JsonReader& reader, Ty
   return as(std::vector<double>{});
 }
 
-void read_attribute(const json::Value& value, JsonReader& reader, SceneMaker& maker, const Plug& plug,
-                    const AttributeSpec& attribute) {
+void read_attribute(const json::Value& value, JsonReader& reader, SceneMaker& maker,
+                    const Plug& plug, const AttributeSpec& attribute) {
   if (!attribute.array) {
     if (const auto read = read_value(value, reader, attribute.type)) maker.set(plug, *read);
     return;
@@ -124,8 +126,9 @@ void read_attribute(const json::Value& value, JsonReader& reader, SceneMaker& ma
   if (!value.is_array())
     return reader.fail(codes::kRigValue, value, fmt::format("\"{}\" is a list", attribute.name));
   if (value.size() > kMostElements)
-    return reader.fail(codes::kRigTooLarge, value,
-                       fmt::format("\"{}\" has more than {} elements", attribute.name, kMostElements));
+    return reader.fail(
+        codes::kRigTooLarge, value,
+        fmt::format("\"{}\" has more than {} elements", attribute.name, kMostElements));
   Plug element = plug;
   element.element = 0;
   for (const json::Value& item : value.items()) {
@@ -175,10 +178,12 @@ std::optional<Plug> find_plug(const scene::Scene& scene, NodeId id, std::string_
   return plug;
 }
 
-/// Whether a plug of an array names an element that is there: outputs have as many as are asked for.
+/// Whether a plug of an array names an element that is there: outputs have as many as are asked
+/// for.
 bool exists(const scene::Scene& scene, const Plug& plug) {
   if (plug.element < 0 || scene.role(plug) == scene::Role::output) return true;
-  return static_cast<std::size_t>(plug.element) < scene[plug.node].attributes[plug.attribute].size();
+  return static_cast<std::size_t>(plug.element) <
+         scene[plug.node].attributes[plug.attribute].size();
 }
 
 void read_input(const json::Value& item, JsonReader& reader, SceneMaker& maker, NodeId id) {
@@ -198,14 +203,14 @@ void read_input(const json::Value& item, JsonReader& reader, SceneMaker& maker, 
     return reader.fail(codes::kRigConnection, parts[0],
                        fmt::format("the node has no input \"{}\"", printable(to_path)));
   if (!from)
-    return reader.fail(codes::kRigConnection, parts[2],
-                       fmt::format("node {} has no attribute \"{}\"", from_node, printable(from_path)));
-  if (scene.type(*to) != scene.type(*from))
     return reader.fail(
-        codes::kRigConnection, item,
-        fmt::format("\"{}\" is a {}, \"{}\" a {}", printable(from_path),
-                    scene::name_of(*scene.type(*from)), printable(to_path),
-                    scene::name_of(*scene.type(*to))));
+        codes::kRigConnection, parts[2],
+        fmt::format("node {} has no attribute \"{}\"", from_node, printable(from_path)));
+  if (scene.type(*to) != scene.type(*from))
+    return reader.fail(codes::kRigConnection, item,
+                       fmt::format("\"{}\" is a {}, \"{}\" a {}", printable(from_path),
+                                   scene::name_of(*scene.type(*from)), printable(to_path),
+                                   scene::name_of(*scene.type(*to))));
   if (scene.source(*to))
     return reader.fail(codes::kRigDuplicate, parts[0],
                        fmt::format("\"{}\" is connected twice", printable(to_path)));
@@ -235,7 +240,8 @@ void read_values(const json::Value& object, JsonReader& reader, SceneMaker& make
   const scene::KindSpec& kind = scene::spec(maker.scene()[id].kind);
   for (const auto& [name, value] : reader.members(object, "values")) {
     std::size_t attribute = 0;
-    while (attribute < kind.attributes.size() && kind.attributes[attribute].name != name) ++attribute;
+    while (attribute < kind.attributes.size() && kind.attributes[attribute].name != name)
+      ++attribute;
     if (attribute == kind.attributes.size() || !is_stored(kind, attribute)) {
       reader.fail(codes::kRigWord, value,
                   fmt::format("a {} stores no \"{}\"", kind.name, printable(name)));
@@ -249,7 +255,8 @@ void read_values(const json::Value& object, JsonReader& reader, SceneMaker& make
 }
 
 void read_inputs(const json::Value& object, JsonReader& reader, SceneMaker& maker, NodeId id) {
-  for (const json::Value& item : reader.items(object, "inputs")) read_input(item, reader, maker, id);
+  for (const json::Value& item : reader.items(object, "inputs"))
+    read_input(item, reader, maker, id);
 }
 
 }  // namespace rigc::gltf

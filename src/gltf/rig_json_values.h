@@ -9,15 +9,22 @@
 
 namespace rigc::gltf {
 
-/// Changes a scene that nobody will want to undo: journals of whole rigs would be larger than the rigs.
+/// Changes a scene that nobody will want to undo: journals of whole rigs would be larger than the
+/// rigs.
 class SceneMaker {
  public:
   explicit SceneMaker(scene::Scene& scene) : scene_(scene) {}
   const scene::Scene& scene() const { return scene_; }
   scene::NodeId make(scene::Node node) { return Once(scene_).edit.make(std::move(node)); }
-  void reparent(scene::NodeId node, scene::NodeId parent) { Once(scene_).edit.reparent(node, parent); }
-  void set(const scene::Plug& plug, const scene::Value& value) { Once(scene_).edit.set(plug, value); }
-  void connect(const scene::Plug& from, const scene::Plug& to) { Once(scene_).edit.connect(from, to); }
+  void reparent(scene::NodeId node, scene::NodeId parent) {
+    Once(scene_).edit.reparent(node, parent);
+  }
+  void set(const scene::Plug& plug, const scene::Value& value) {
+    Once(scene_).edit.set(plug, value);
+  }
+  void connect(const scene::Plug& from, const scene::Plug& to) {
+    Once(scene_).edit.connect(from, to);
+  }
   void add_attribute(scene::NodeId node, scene::UserAttribute attribute) {
     Once(scene_).edit.add_attribute(node, std::move(attribute));
   }
@@ -34,9 +41,11 @@ class SceneMaker {
 /// `values`, `user` and `inputs` of an open object.
 void write_values(json::Writer& writer, const scene::Scene& scene, scene::NodeId id);
 
-void read_values(const json::Value& object, JsonReader& reader, SceneMaker& maker, scene::NodeId id);
+void read_values(const json::Value& object, JsonReader& reader, SceneMaker& maker,
+                 scene::NodeId id);
 /// All nodes have their values by now.
-void read_inputs(const json::Value& object, JsonReader& reader, SceneMaker& maker, scene::NodeId id);
+void read_inputs(const json::Value& object, JsonReader& reader, SceneMaker& maker,
+                 scene::NodeId id);
 
 std::string_view name_of(scene::UserAttribute::Flavour flavour);
 

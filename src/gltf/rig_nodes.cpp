@@ -48,8 +48,8 @@ std::vector<int> foreign_nodes(const Rig& rig) {
   return foreign;
 }
 
-/// Joints of the skeleton, joints that commands hung under them, joints that proxy meshes are bound to, and all that
-/// carries one of these.
+/// Joints of the skeleton, joints that commands hung under them, joints that proxy meshes are bound
+/// to, and all that carries one of these.
 std::vector<bool> staying(const Scene& scene, const std::vector<NodeId>& order) {
   std::vector<bool> stays(scene.size(), false);
   for (const NodeId id : order) {
@@ -111,7 +111,8 @@ std::string extras_text(const Rig& rig, NodeId id) {
   using Flavour = scene::UserAttribute::Flavour;
   for (const scene::UserAttribute& attribute : node.user) {
     if (!attribute.keyable) continue;
-    const bool whole = attribute.flavour == Flavour::integer || attribute.flavour == Flavour::boolean;
+    const bool whole =
+        attribute.flavour == Flavour::integer || attribute.flavour == Flavour::boolean;
     std::string number = number_text(attribute.value);
     // Other programs take a number without a point for an integer, and round its keys.
     if (!whole && number.find_first_of(".e") == std::string::npos) number += ".0";
@@ -127,7 +128,8 @@ std::string node_text(const Rig& rig, const NodePlan& plan, NodeId id, int mesh)
   if (!node.name.empty()) add_member(text, "name", json::quote(node.name));
   if (local.translation != math::Vec3{})
     add_member(text, "translation", float_list(&local.translation.x, 3));
-  if (local.rotation != math::Quat{}) add_member(text, "rotation", float_list(&local.rotation.x, 4));
+  if (local.rotation != math::Quat{})
+    add_member(text, "rotation", float_list(&local.rotation.x, 4));
   if (local.scale != math::Vec3{1, 1, 1}) add_member(text, "scale", float_list(&local.scale.x, 3));
   if (mesh >= 0) add_member(text, "mesh", std::to_string(mesh));
   std::string children;

@@ -12,12 +12,15 @@ namespace rigc::gltf {
 
 /// Where the nodes of a rig go.
 struct NodePlan {
-  std::vector<int> foreign;              ///< by scene node: glTF node of the model, -1: ours or none
-  std::vector<scene::NodeId> stays;      ///< ours, in the order they get indices: joints and what carries them
-  std::vector<scene::NodeId> goes;       ///< ours: what strip takes away
-  std::vector<scene::NodeId> parents;    ///< by scene node: transform above it in the scene, invalid: none
-  std::vector<std::vector<scene::NodeId>> children;   ///< by scene node: ours that hang under it in the file
-  std::vector<int> roots;                ///< by scene node: names the tree that it lies in, -1: no transform
+  std::vector<int> foreign;  ///< by scene node: glTF node of the model, -1: ours or none
+  std::vector<scene::NodeId>
+      stays;  ///< ours, in the order they get indices: joints and what carries them
+  std::vector<scene::NodeId> goes;  ///< ours: what strip takes away
+  std::vector<scene::NodeId>
+      parents;  ///< by scene node: transform above it in the scene, invalid: none
+  std::vector<std::vector<scene::NodeId>>
+      children;            ///< by scene node: ours that hang under it in the file
+  std::vector<int> roots;  ///< by scene node: names the tree that it lies in, -1: no transform
 };
 
 NodePlan plan_nodes(const Rig& rig, int ancestor);

@@ -13,8 +13,8 @@
 
 namespace rigc::gltf {
 
-/// A file's name relative to the folder of the main template; names outside of it lose their folders, because they
-/// would say where on a disk the rig was built.
+/// A file's name relative to the folder of the main template; names outside of it lose their
+/// folders, because they would say where on a disk the rig was built.
 std::string portable_name(std::string_view file, std::string_view main_file);
 
 /// Names of files in the order they are first needed.

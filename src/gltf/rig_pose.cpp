@@ -33,8 +33,8 @@ bool same(const math::Vec3& a, const math::Vec3& b) {
 /// As rotations: the two signs of a quaternion are one.
 bool same(const math::Quat& a, const math::Quat& b) {
   const math::Quat c = math::dot(a, b) < 0 ? -b : b;
-  const double largest = std::max({std::abs(a.x - c.x), std::abs(a.y - c.y), std::abs(a.z - c.z),
-                                   std::abs(a.w - c.w)});
+  const double largest = std::max(
+      {std::abs(a.x - c.x), std::abs(a.y - c.y), std::abs(a.z - c.z), std::abs(a.w - c.w)});
   return largest <= kRelative;
 }
 
@@ -81,14 +81,15 @@ void take_over_attributes(const File& file, const json::Value& extras, SceneMake
 
 }  // namespace
 
-void take_over_pose(const File& file, const Slim& slim, const std::vector<json::Value>& nodes, Rig& rig,
-                    Diagnostics& diagnostics) {
+void take_over_pose(const File& file, const Slim& slim, const std::vector<json::Value>& nodes,
+                    Rig& rig, Diagnostics& diagnostics) {
   SceneMaker maker(rig.scene);
   for (const NodeId id : rig.scene.nodes()) {
     const int node = rig.nodes[id.index];
     if (rig.scene[id].kind != scene::Kind::control || node < 0) continue;
     take_over_transform(slim.node(node).local, maker, id);
-    take_over_attributes(file, nodes[static_cast<std::size_t>(node)]["extras"], maker, id, diagnostics);
+    take_over_attributes(file, nodes[static_cast<std::size_t>(node)]["extras"], maker, id,
+                         diagnostics);
   }
 }
 

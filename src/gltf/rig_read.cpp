@@ -24,7 +24,7 @@ Place at_node(const File& file, int node) { return {file.path, fmt::format("/nod
 /// What the nodes of a file say that they are.
 struct Identities {
   std::map<Identity, int> nodes;
-  std::vector<bool> marked;   ///< by glTF node: it says what it is
+  std::vector<bool> marked;  ///< by glTF node: it says what it is
 };
 
 std::optional<Identities> read_identities(const File& file, const std::vector<json::Value>& nodes,
@@ -42,17 +42,18 @@ std::optional<Identities> read_identities(const File& file, const std::vector<js
     unique = false;
     diagnostics.report(
         codes::kSameIdentity, at_node(file, static_cast<int>(i)),
-        fmt::format("nodes {} (\"{}\") and {} (\"{}\") both say that they are {}", at->second,
-                    printable(nodes[static_cast<std::size_t>(at->second)]["name"].string().value_or("")),
-                    i, printable(nodes[i]["name"].string().value_or("")), *text),
+        fmt::format(
+            "nodes {} (\"{}\") and {} (\"{}\") both say that they are {}", at->second,
+            printable(nodes[static_cast<std::size_t>(at->second)]["name"].string().value_or("")), i,
+            printable(nodes[i]["name"].string().value_or("")), *text),
         "remove extras.rigc from the one that is a copy");
   }
   if (!unique) return std::nullopt;
   return out;
 }
 
-/// The node that stands for a scene node: the one that says so, else the one at the recorded index, if that one does
-/// not say something else.
+/// The node that stands for a scene node: the one that says so, else the one at the recorded index,
+/// if that one does not say something else.
 int find_node(const Identities& identities, const scene::Node& node, int recorded) {
   const auto found = identities.nodes.find(node.identity);
   if (found != identities.nodes.end()) return found->second;
@@ -74,16 +75,19 @@ bool resolve_nodes(const File& file, const Identities& identities, Rig& rig, std
     const int recorded = at;
     at = has_place ? find_node(identities, node, recorded) : -1;
     if (at < 0 && (recorded >= count || (recorded >= 0 && !has_place))) {
-      diagnostics.report(codes::kRigIndex, Place(file.path, "/extensions/RIGC_rig"),
-                         fmt::format("\"{}\" of rig {} says that it is node {} of {}, which it cannot be",
-                                     printable(node.name), rig.id, recorded, count));
+      diagnostics.report(
+          codes::kRigIndex, Place(file.path, "/extensions/RIGC_rig"),
+          fmt::format("\"{}\" of rig {} says that it is node {} of {}, which it cannot be",
+                      printable(node.name), rig.id, recorded, count));
     } else if (at < 0 && has_place) {
-      diagnostics.report(codes::kNodeLost, Place(file.path, "/extensions/RIGC_rig"),
-                         fmt::format("no node stands for \"{}\" of rig {}", printable(node.name), rig.id));
+      diagnostics.report(
+          codes::kNodeLost, Place(file.path, "/extensions/RIGC_rig"),
+          fmt::format("no node stands for \"{}\" of rig {}", printable(node.name), rig.id));
     } else if (at >= 0 && !taken.insert(at).second) {
-      diagnostics.report(codes::kRigDuplicate, at_node(file, at),
-                         fmt::format("\"{}\" of rig {} says that it is node {}, and so does another",
-                                     printable(node.name), rig.id, at));
+      diagnostics.report(
+          codes::kRigDuplicate, at_node(file, at),
+          fmt::format("\"{}\" of rig {} says that it is node {}, and so does another",
+                      printable(node.name), rig.id, at));
     }
   }
   return diagnostics.errors() == errors;
@@ -112,11 +116,10 @@ std::optional<std::vector<Rig>> read_texts(const File& file, const json::Value& 
                                            Diagnostics& diagnostics) {
   const auto version = extension["version"].integer();
   if (!version || *version < 1 || *version > kRigVersionNumber) {
-    diagnostics.report(
-        codes::kRigVersion, Place(file.path, "/extensions/RIGC_rig"),
-        version ? fmt::format("RIGC_rig has version {}; this rigc reads version {}", *version,
-                              kRigVersionNumber)
-                : std::string("RIGC_rig has no version"));
+    diagnostics.report(codes::kRigVersion, Place(file.path, "/extensions/RIGC_rig"),
+                       version ? fmt::format("RIGC_rig has version {}; this rigc reads version {}",
+                                             *version, kRigVersionNumber)
+                               : std::string("RIGC_rig has no version"));
     return std::nullopt;
   }
   JsonReader reader(file.path, diagnostics);
@@ -132,7 +135,8 @@ std::optional<std::vector<Rig>> read_texts(const File& file, const json::Value& 
     rigs.push_back(std::move(*rig));
   }
   if (!complete || !reader.ok()) return std::nullopt;
-  std::stable_sort(rigs.begin(), rigs.end(), [](const Rig& a, const Rig& b) { return a.id < b.id; });
+  std::stable_sort(rigs.begin(), rigs.end(),
+                   [](const Rig& a, const Rig& b) { return a.id < b.id; });
   return rigs;
 }
 

@@ -20,7 +20,8 @@ struct Going {
 
 int index_of(const Value& value) { return static_cast<int>(value.integer().value_or(-1)); }
 
-/// Nodes of the rigs' part that goes, without those that carry something that stays: others may have hung things there.
+/// Nodes of the rigs' part that goes, without those that carry something that stays: others may
+/// have hung things there.
 Indices going_nodes(const std::vector<Value>& nodes, const std::vector<Rig>& rigs) {
   Indices going;
   for (const Rig& rig : rigs) {
@@ -31,7 +32,7 @@ Indices going_nodes(const std::vector<Value>& nodes, const std::vector<Rig>& rig
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (const Value& child : nodes[i]["children"].items())
       parents[static_cast<std::size_t>(index_of(child))] = static_cast<int>(i);
-  std::vector<bool> carries(nodes.size(), false);   // and so do all above it
+  std::vector<bool> carries(nodes.size(), false);  // and so do all above it
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (going.count(static_cast<int>(i))) continue;
     for (int at = parents[i]; at >= 0 && !carries[static_cast<std::size_t>(at)];
@@ -71,9 +72,8 @@ Indices view_of(const Value& accessor) {
 }
 
 bool owned(const std::vector<Rig>& rigs, Range Owned::Part::*range, int index) {
-  return std::any_of(rigs.begin(), rigs.end(), [&](const Rig& rig) {
-    return (rig.owned.goes.*range).contains(index);
-  });
+  return std::any_of(rigs.begin(), rigs.end(),
+                     [&](const Rig& rig) { return (rig.owned.goes.*range).contains(index); });
 }
 
 /// What the users that go name, the rigs own, and no user that stays names.
@@ -85,7 +85,8 @@ Indices released(const std::vector<Value>& users, const Indices& going_users, Na
     const bool goes = going_users.count(static_cast<int>(i)) != 0;
     for (const int index : named(users[i])) (goes ? going : staying).insert(index);
   }
-  std::erase_if(going, [&](int index) { return staying.count(index) || !owned(rigs, range, index); });
+  std::erase_if(going,
+                [&](int index) { return staying.count(index) || !owned(rigs, range, index); });
   return going;
 }
 
@@ -105,7 +106,8 @@ Going find_going(const File& file, const std::vector<Rig>& rigs) {
       for (const char* end : {"input", "output"}) going.accessors.erase(index_of(sampler[end]));
   const auto accessors = root["accessors"].items();
   going.views = released(accessors, going.accessors, view_of, rigs, &Owned::Part::buffer_views);
-  for (const Value& image : root["images"].items()) going.views.erase(index_of(image["bufferView"]));
+  for (const Value& image : root["images"].items())
+    going.views.erase(index_of(image["bufferView"]));
   return going;
 }
 
@@ -132,14 +134,16 @@ void unlink_nodes(Patch& patch, const std::vector<Value>& nodes, const Value& sc
 }
 
 /// Takes identities, attributes and shapes from nodes that stay.
-void clean_nodes(Patch& patch, const std::vector<Value>& nodes, const Going& going, const Rig& rig) {
+void clean_nodes(Patch& patch, const std::vector<Value>& nodes, const Going& going,
+                 const Rig& rig) {
   const NodePlan plan = plan_nodes(rig, rig.ancestor);
   for (const NodeId id : rig.scene.nodes()) {
     const int node = rig.nodes[id.index];
     if (node < 0 || going.nodes.count(node)) continue;
     patch.set_extra(node, "rigc", "");
     for (const scene::UserAttribute& attribute : rig.scene[id].user)
-      if (attribute.keyable && plan.foreign[id.index] < 0) patch.set_extra(node, attribute.name, "");
+      if (attribute.keyable && plan.foreign[id.index] < 0)
+        patch.set_extra(node, attribute.name, "");
     const int mesh = index_of(nodes[static_cast<std::size_t>(node)]["mesh"]);
     if (rig.scene[id].kind == scene::Kind::control && owned({rig}, &Owned::Part::meshes, mesh))
       patch.set_member("nodes", node, "mesh", "");

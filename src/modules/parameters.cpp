@@ -95,10 +95,6 @@ bool takes_one(ParameterType type) {
   return type == ParameterType::node || type == ParameterType::plug;
 }
 
-bool is_selector(ParameterType type) {
-  return takes_nodes(type) || type == ParameterType::plug || type == ParameterType::plugs;
-}
-
 /// The default that counts: of the pinned version where `changes:` say that it was another.
 const Literal* default_of(const Parameter& parameter, const catalog::Descriptor& descriptor,
                           int pinned) {
@@ -182,7 +178,6 @@ class Binder {
   }
 
   bool bind_selectors(const Parameter& parameter, const Literal& value, const Span& span) {
-    assert(is_selector(parameter.type));
     std::vector<NodeId> nodes;
     std::vector<Plug> plugs;
     const bool list = value.kind == Literal::Kind::list;

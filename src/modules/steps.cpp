@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/text.h"
 #include "modules/codes.h"
 
@@ -57,17 +59,24 @@ Vec3 mirror_image(const Builder& b, const ControlSpec& spec, Vec3 point) {
   return point - left * (2 * math::dot(left, point));
 }
 
+/// Ten to the number of decimals that draw a shape of this size to a ten-thousandth of it.
+double decimals_for(double size) {
+  double decimals = 1;
+  while (decimals * size < 1e4 && decimals < 1e12) decimals *= 10;
+  return decimals;
+}
+
 /// Flattened polylines in control space: the number of points, then their coordinates, repeated.
-std::vector<double> placed(const Builder& b, const Lines& lines, const ControlSpec& spec) {
+/// Rounded, because they are written out as text.
+std::vector<double> placed(const Lines& lines, const ControlSpec& spec) {
   const math::Quat turn = math::between({0, 1, 0}, math::normalised(spec.facing, {0, 1, 0}));
-  Vec3 offset = spec.offset;
-  if (is_mirrored(b, spec.joint)) offset.x = -offset.x;  // expansion had turned it round
+  const double decimals = decimals_for(spec.size);
   std::vector<double> out;
   for (const auto& line : lines) {
     out.push_back(static_cast<double>(line.size()));
     for (const Vec3& point : line) {
-      const Vec3 p = mirror_image(b, spec, math::rotate(turn, point) * spec.size + offset);
-      out.insert(out.end(), {p.x, p.y, p.z});
+      const Vec3 p = math::rotate(turn, point) * spec.size + spec.offset;
+      for (double x : {p.x, p.y, p.z}) out.push_back(std::nearbyint(x * decimals) / decimals);
     }
   }
   return out;

@@ -89,7 +89,7 @@ void append_tail(Patch& patch, std::mt19937_64& random) {
   patch.add_child(-1, first);
   patch.add_child(first, first + 1);
   patch.append("materials", "{}");
-  patch.set_root_extension("RIGC_rig", R"({"rigs":[]})");
+  patch.set_root_extension("RIGC_rig", R"({"version":1,"rigs":[]})");
   patch.use_extension("KHR_animation_pointer");
 }
 

@@ -37,7 +37,8 @@ double volume(const Surface& surface) {
   return six / 6;
 }
 
-/// Each edge of a closed surface is passed once each way; by place, because corners of boxes are several points.
+/// Each edge of a closed surface is passed once each way; by place, because corners of boxes are
+/// several points.
 bool closed(const Surface& surface) {
   const auto place = [&](std::uint32_t index) {
     const math::Vec3& p = surface.points[index];
@@ -56,10 +57,11 @@ bool closed(const Surface& surface) {
 
 std::string bytes_of(const File& file, const json::Value& accessor) {
   const json::Value view =
-      file.root()["bufferViews"].items()[static_cast<std::size_t>(*accessor["bufferView"].integer())];
-  return std::string(
-      file.buffers[0].bytes.substr(static_cast<std::size_t>(view["byteOffset"].integer().value_or(0)),
-                                   static_cast<std::size_t>(*view["byteLength"].integer())));
+      file.root()["bufferViews"]
+          .items()[static_cast<std::size_t>(*accessor["bufferView"].integer())];
+  return std::string(file.buffers[0].bytes.substr(
+      static_cast<std::size_t>(view["byteOffset"].integer().value_or(0)),
+      static_cast<std::size_t>(*view["byteLength"].integer())));
 }
 
 std::vector<float> floats_of(const File& file, const json::Value& accessor) {
@@ -82,7 +84,8 @@ TEST_CASE("gltf proxy_mesh: surfaces are closed and face outward") {
     if (part.box)
       CHECK(volume(s) == doctest::Approx(block).epsilon(1e-9));
     else
-      CHECK(volume(s) > block * 0.7);   // a cylinder has pi / 4 of it, its segments a little less, the caps more
+      CHECK(volume(s) >
+            block * 0.7);  // a cylinder has pi / 4 of it, its segments a little less, the caps more
     REQUIRE(s.normals.size() == s.points.size());
     for (std::size_t i = 0; i < s.indices.size(); i += 3) {
       const auto at = [&](std::size_t k) { return s.points[s.indices[i + k]]; };
@@ -130,8 +133,9 @@ TEST_CASE("gltf proxy_mesh: skinning at rest gives the mesh as it lies") {
     const auto joint = static_cast<std::size_t>(joints[i * 4]);
     const float* m = &binds[joint * 16];
     const auto d = [](float value) { return static_cast<double>(value); };
-    const math::Affine bind{{{d(m[0]), d(m[1]), d(m[2])}, {d(m[4]), d(m[5]), d(m[6])}, {d(m[8]), d(m[9]), d(m[10])}},
-                            {d(m[12]), d(m[13]), d(m[14])}};
+    const math::Affine bind{
+        {{d(m[0]), d(m[1]), d(m[2])}, {d(m[4]), d(m[5]), d(m[6])}, {d(m[8]), d(m[9]), d(m[10])}},
+        {d(m[12]), d(m[13]), d(m[14])}};
     const math::Vec3 point{d(points[i * 3]), d(points[i * 3 + 1]), d(points[i * 3 + 2])};
     const math::Vec3 skinned = rig.scene.rest_world(ids[joint]) * (bind * point);
     CHECK(math::length(skinned - point) < 1e-6);
@@ -162,6 +166,6 @@ TEST_CASE("gltf proxy_mesh: joints of two trees get a skin each") {
   Rig rig = maker.take();
   const File file = written(empty_file(), rig, "proxy_two_trees");
   CHECK(file.root()["skins"].size() == 2);
-  CHECK(file.root()["meshes"].items()[0]["primitives"].size() == 2);   // two colours
+  CHECK(file.root()["meshes"].items()[0]["primitives"].size() == 2);  // two colours
   CHECK(file.root()["meshes"].items()[1]["primitives"].size() == 1);
 }

@@ -16,14 +16,16 @@ namespace transform = scene::transform;
 RigMaker::RigMaker(std::uint32_t id)
     : RigMaker(id, std::make_unique<Rig>(), std::make_unique<scene::Journal>()) {}
 
-RigMaker::RigMaker(std::uint32_t id, std::unique_ptr<Rig> rig, std::unique_ptr<scene::Journal> journal)
+RigMaker::RigMaker(std::uint32_t id, std::unique_ptr<Rig> rig,
+                   std::unique_ptr<scene::Journal> journal)
     : edit(rig->scene, *journal, nullptr), rig_(std::move(rig)), journal_(std::move(journal)) {
   rig_->id = id;
   rig_->skeleton.name = "lamp";
   rig_->skeleton.global = "lamp";
 }
 
-NodeId RigMaker::joint(const std::string& name, int parent, const math::Trs& rest, int foreign_node) {
+NodeId RigMaker::joint(const std::string& name, int parent, const math::Trs& rest,
+                       int foreign_node) {
   tags::TaggedJoint joint;
   joint.name = name;
   joint.key.uid = hash64(name);
@@ -40,7 +42,8 @@ NodeId RigMaker::joint(const std::string& name, int parent, const math::Trs& res
   node.identity.rig = rig_->id;
   node.identity.owner = joint.key;
   node.origin.joint = name;
-  if (parent >= 0) node.parent = joint_named(*rig_, rig_->skeleton.joints[static_cast<std::size_t>(parent)].name);
+  if (parent >= 0)
+    node.parent = joint_named(*rig_, rig_->skeleton.joints[static_cast<std::size_t>(parent)].name);
   const NodeId id = edit.make(node);
   edit.set({id, transform::kTranslate}, rest.translation);
   edit.set({id, transform::kRotation}, rest.rotation);
@@ -69,16 +72,22 @@ void RigMaker::command(const std::string& id, const std::string& module) {
 
 namespace {
 
+/// Numbers of the two template files, which are the first that anybody adds.
+std::pair<std::uint32_t, std::uint32_t> add_files(Diagnostics& diagnostics) {
+  const std::uint32_t file = diagnostics.sources().add("templates/lamp.yaml", "");
+  return {file, diagnostics.sources().add("templates/parts/arm.yaml", "")};
+}
+
 void add_tags(Rig& rig, Diagnostics& diagnostics) {
   tags::TaggedSkeleton& skeleton = rig.skeleton;
-  const std::uint32_t file = diagnostics.sources().add("templates/lamp.yaml", "");
-  const std::uint32_t part = diagnostics.sources().add("templates/parts/arm.yaml", "");
+  const auto [file, part] = add_files(diagnostics);
   skeleton.templates = {{"lamp", 3, "templates/lamp.yaml", hex16(hash64("lamp"))},
                         {"arm", 2, "templates/parts/arm.yaml", hex16(hash64("arm"))}};
   skeleton.module_pins = {{"control", 1}};
   skeleton.features = {{"ikfk", "limb", "IK/FK", "switches \"it\"", true, {"arms", "legs"}},
                        {"stretch", "limb", "", "", false, {}}};
-  skeleton.shapes = {{"blade", {{{0, 0, 0}, {0.1, 0.2, 1.0 / 3}}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}}};
+  skeleton.shapes = {
+      {"blade", {{{0, 0, 0}, {0.1, 0.2, 1.0 / 3}}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}}};
   skeleton.character.height = 1.25;
   skeleton.character.unit = 100;
   rig.settings.features = {{"arm", "ikfk", "arms", false}, {"", "stretch", "", true}};
@@ -105,7 +114,8 @@ void add_tags(Rig& rig, Diagnostics& diagnostics) {
   Literal list;
   list.kind = Literal::Kind::list;
   list.items = {Literal::of(0.1), Literal::of("x"), Literal::of(true), Literal{}};
-  command.with = {{"shape", {}, Literal::of("true")}, {"size", {}, Literal::of(0.3)}, {"offset", {}, list}};
+  command.with = {
+      {"shape", {}, Literal::of("true")}, {"size", {}, Literal::of(0.3)}, {"offset", {}, list}};
   joint.commands = {command};
 }
 
@@ -137,7 +147,8 @@ RigMaker make_sample(Diagnostics& diagnostics, int foreign_base, int foreign_tip
   RigMaker maker(0);
   const double third = 1.0 / 3;
   maker.joint("root", -1, {});
-  maker.joint("base", 0, {{0, 0.25, 0}, math::axis_angle({0, 0, 1}, third), {1, 1, 1}}, foreign_base);
+  maker.joint("base", 0, {{0, 0.25, 0}, math::axis_angle({0, 0, 1}, third), {1, 1, 1}},
+              foreign_base);
   const NodeId base = joint_named(maker.rig(), "base");
   maker.command("main", "control");
   const NodeId base_control = add_control(maker, base, {}, 0);
@@ -151,8 +162,10 @@ RigMaker make_sample(Diagnostics& diagnostics, int foreign_base, int foreign_tip
   maker.edit.add_attribute(tip_control, {"hidden", Flavour::boolean, 1, 1, {}, {}, false});
   const NodeId expression = maker.node(Kind::expression, "sum", {}, 1);
   maker.edit.set({expression, scene::expression::kCode}, std::string("$0 * 2 < 3"));
-  maker.edit.connect({tip_control, scene::kUserAttributes}, {expression, scene::expression::kInputs, 0});
-  maker.edit.connect({expression, scene::expression::kOutput}, {tip_control, transform::kScale, -1, 1});
+  maker.edit.connect({tip_control, scene::kUserAttributes},
+                     {expression, scene::expression::kInputs, 0});
+  maker.edit.connect({expression, scene::expression::kOutput},
+                     {tip_control, transform::kScale, -1, 1});
   // Children in an order that is not the one they were made in.
   const NodeId late = maker.node(Kind::transform, "late", {}, 1);
   maker.edit.reparent(maker.edit.scene()[base_control].children[0], late);
@@ -184,14 +197,26 @@ Rig proxy_rig(Diagnostics& diagnostics) {
   return maker.take();
 }
 
+File model_file(const std::string& text, const std::string& name) {
+  const std::string path = make_folder("broken/" + name) + "/model.gltf";
+  write_bytes(path, text);
+  Diagnostics diagnostics;
+  auto opened = gltf::open(path, diagnostics);
+  INFO(render(diagnostics, false));
+  REQUIRE(opened);
+  return std::move(*opened);
+}
+
 File written(const File& file, Rig& rig, const std::string& name, int ancestor) {
   Diagnostics diagnostics;
+  add_files(diagnostics);
   Patch patch(file);
   REQUIRE(write_rig(patch, rig, ancestor, diagnostics));
   const auto output = patch.finish(true, diagnostics);
   REQUIRE(output);
   const std::string path = make_folder(name) + "/rig.glb";
   write_output(*output, path, folder_of(file.path));
+  if (!file.path.empty()) allow_messages_of(path, file.path);
   auto opened = gltf::open(path, diagnostics);
   INFO(render(diagnostics, false));
   REQUIRE(opened);

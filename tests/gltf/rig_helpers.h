@@ -16,7 +16,8 @@ class RigMaker {
   explicit RigMaker(std::uint32_t id = 0);
 
   /// A tagged joint and its scene node. `parent` -1: a root.
-  scene::NodeId joint(const std::string& name, int parent, const math::Trs& rest, int foreign_node = -1);
+  scene::NodeId joint(const std::string& name, int parent, const math::Trs& rest,
+                      int foreign_node = -1);
   /// A node that command `command` made.
   scene::NodeId node(scene::Kind kind, const std::string& role, scene::NodeId parent = {},
                      std::uint32_t command = 0);
@@ -35,13 +36,18 @@ class RigMaker {
   Diagnostics diagnostics_;
 };
 
-/// Two bones and a helper root; a control on each bone that drives it, a switch, and all that RIGC_rig stores:
-/// tags, features, settings, shapes, commands. `foreign`: glTF nodes of the two bones, -1 for none.
+/// Two bones and a helper root; a control on each bone that drives it, a switch, and all that
+/// RIGC_rig stores: tags, features, settings, shapes, commands. `foreign`: glTF nodes of the two
+/// bones, -1 for none.
 Rig sample_rig(Diagnostics& diagnostics, int foreign_base = -1, int foreign_tip = -1);
 /// The same with a proxy mesh around the bones.
 Rig proxy_rig(Diagnostics& diagnostics);
 
-/// Writes a rig into a file and opens what came out. The file lies in RIGC_TEST_OUT, for the validator to see.
+/// A model's text as a file of its own, where the validator does not look.
+File model_file(const std::string& text, const std::string& name);
+
+/// Writes a rig into a file and opens what came out. The file lies in RIGC_TEST_OUT, for the
+/// validator to see.
 File written(const File& file, Rig& rig, const std::string& name, int ancestor = -1);
 
 /// The one node of the scene with a role; the first, for roles that several have.

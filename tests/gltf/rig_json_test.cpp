@@ -35,7 +35,8 @@ std::string first_error(const std::string& text) {
   Diagnostics diagnostics;
   CHECK_FALSE(read(text, diagnostics));
   REQUIRE(diagnostics.errors() > 0);
-  return std::to_string(diagnostics.all()[0].code->number) + " " + diagnostics.all()[0].place.pointer;
+  return std::to_string(diagnostics.all()[0].code->number) + " " +
+         diagnostics.all()[0].place.pointer;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rigs into files and out again: nodes, identities, shapes, several rigs, models that stay what they were.
+// Rigs into files and out again: nodes, identities, shapes, several rigs, models that stay what
+// they were.
 #include "gltf/rig.h"
 
 #include <doctest/doctest.h>
@@ -72,8 +73,7 @@ TEST_CASE("gltf rig: nodes show what the scene has") {
   REQUIRE(rig.scene[control].name == "tip_control");
   const json::Value node = node_of(file, rig, control);
   CHECK(node["name"].string() == "tip_control");
-  CHECK(node["extras"]["rigc"].string() ==
-        "0:77f228ca67e63e45:77f228ca67e63e45:aim:control:0");
+  CHECK(node["extras"]["rigc"].string() == "0:77f228ca67e63e45:77f228ca67e63e45:aim:control:0");
   CHECK(node["extras"]["ik_fk"].text() == "1.0");
   CHECK(node["extras"]["count"].text() == "3");
   CHECK(node["extras"]["roll"].number() == 1.0 / 3);
@@ -105,7 +105,8 @@ TEST_CASE("gltf rig: equal shapes of one colour are one mesh") {
   CHECK(points["count"].integer() == 5);
   CHECK(points["min"].text() == "[-1,0,-1]");
   CHECK(points["max"].text() == "[1,0,1]");
-  CHECK(accessors[static_cast<std::size_t>(*primitive["indices"].integer())]["count"].integer() == 8);
+  CHECK(accessors[static_cast<std::size_t>(*primitive["indices"].integer())]["count"].integer() ==
+        8);
   for (const scene::NodeId id : rig.scene.nodes()) {
     if (rig.scene[id].kind == scene::Kind::control)
       CHECK(node_of(file, rig, id)["mesh"].integer() == 0);
@@ -114,11 +115,10 @@ TEST_CASE("gltf rig: equal shapes of one colour are one mesh") {
 
 TEST_CASE("gltf rig: a model keeps its nodes and gets identities") {
   Diagnostics diagnostics;
-  const auto model = open_text(small_model(), diagnostics);
-  REQUIRE(model);
+  const File model = model_file(small_model(), "rig_model");
   Rig rig = sample_rig(diagnostics, 0, 1);
-  const File file = written(*model, rig, "rig_on_model");
-  const auto before = model->root()["nodes"].items();
+  const File file = written(model, rig, "rig_on_model");
+  const auto before = model.root()["nodes"].items();
   const auto after = file.root()["nodes"].items();
   CHECK(after[1]["extras"].text() == R"({"rigc":"0:77f228ca67e63e45"})");
   CHECK(after[1]["rotation"].text() == before[1]["rotation"].text());
@@ -128,7 +128,7 @@ TEST_CASE("gltf rig: a model keeps its nodes and gets identities") {
   // The helper root is ours, and has no joint of the model below it.
   CHECK(rig.nodes[joint_named(rig, "root").index] >= 3);
   for (const char* array : {"accessors", "bufferViews", "animations", "skins"}) {
-    const auto old = model->root()[array].items();
+    const auto old = model.root()[array].items();
     const auto now = file.root()[array].items();
     REQUIRE(now.size() >= old.size());
     for (std::size_t i = 0; i < old.size() && std::string_view(array) != "bufferViews"; ++i)
@@ -141,18 +141,17 @@ TEST_CASE("gltf rig: a model keeps its nodes and gets identities") {
 }
 
 TEST_CASE("gltf rig: what hangs under a model's joint hangs there in the file") {
-  Diagnostics diagnostics;
-  const auto model = open_text(small_model(), diagnostics);
-  REQUIRE(model);
+  const File model = model_file(small_model(), "rig_model_under");
   RigMaker maker;
   maker.joint("base", -1, {}, 0);
   maker.command("helper", "transform");
-  const scene::NodeId under = maker.node(scene::Kind::transform, "space", joint_named(maker.rig(), "base"));
+  const scene::NodeId under =
+      maker.node(scene::Kind::transform, "space", joint_named(maker.rig(), "base"));
   const scene::NodeId alone = maker.node(scene::Kind::transform, "other", {});
   const scene::NodeId constraint = maker.node(scene::Kind::expression, "sum", alone);
   const scene::NodeId below = maker.node(scene::Kind::handle, "handle", constraint);
   Rig rig = maker.take();
-  const File file = written(*model, rig, "rig_under_joint", 2);
+  const File file = written(model, rig, "rig_under_joint", 2);
   const auto nodes = file.root()["nodes"].items();
   const std::string at = std::to_string(rig.nodes[under.index]);
   CHECK(nodes[0]["children"].text() == "[1," + at + "]");
@@ -194,13 +193,11 @@ TEST_CASE("gltf rig: random scenes come back from their files") {
   }
 }
 
-TEST_CASE("gltf rig: a file without rigs has none") {
-  CHECK(rigs_of(empty_file()).empty());
-}
+TEST_CASE("gltf rig: a file without rigs has none") { CHECK(rigs_of(empty_file()).empty()); }
 
 TEST_CASE("gltf rig: numbers that glTF cannot hold are reported") {
-  for (const double bad : {std::numeric_limits<double>::infinity(), 1e39,
-                           std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double bad :
+       {std::numeric_limits<double>::infinity(), 1e39, std::numeric_limits<double>::quiet_NaN()}) {
     RigMaker maker;
     const scene::NodeId joint = maker.joint("base", -1, {});
     maker.edit.set({joint, transform::kTranslate}, math::Vec3{0, bad, 0});
