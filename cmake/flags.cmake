@@ -9,7 +9,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LES
   # What gcc 12 concludes from inlining std::string, std::optional and std::variant is often false (its bugs
   # 105329, 105651, 105562). Clang's sanitizers watch for the real ones.
   target_compile_options(rigc_flags INTERFACE -Wno-array-bounds -Wno-free-nonheap-object -Wno-maybe-uninitialized
-    -Wno-restrict -Wno-stringop-overflow)
+    -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 target_compile_definitions(rigc_flags INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MPL2_ONLY)
 if(RIGC_SANITIZE)

@@ -20,14 +20,17 @@ struct Standing {
 };
 
 struct Options {
-  double fps = 30;                   ///< 0: the union of the keys' times
-  std::optional<double> start, end;  ///< seconds; else the clip's
-  double tolerance = 0;  ///< largest world-space error of any joint (rig units) that key reduction
-                         ///< may cause; 0: only exact repeats are dropped
-  std::vector<Standing>
-      standings;  ///< by scene node; empty: every node stands where the scene's rest has it
-  bool controls_play =
-      false;  ///< the controls keep their channels in the baked file (`--keep-rig`)
+  /// Frames a second; 0: the union of the keys' times.
+  double fps = 30;
+  /// Seconds; else the clip's.
+  std::optional<double> start, end;
+  /// Largest world-space error of any joint (rig units) that key reduction may cause; 0: every
+  /// frame of a channel that moves is a key.
+  double tolerance = 0;
+  /// By scene node; empty: every node stands where the scene's rest has it.
+  std::vector<Standing> standings;
+  /// The controls keep their channels in the baked file (`--keep-rig`).
+  bool controls_play = false;
 };
 
 struct Report {
@@ -35,9 +38,9 @@ struct Report {
   std::size_t channels = 0;
   std::size_t keys = 0;
   double shear = 0;            ///< largest relative error where TRS cannot express a joint
-  double reduction_error = 0;  ///< largest world-space error of a joint after reduction, rig units
-  std::vector<int> driven;  ///< glTF nodes that the result speaks for, with a channel or without:
-                            ///< other channels on them do not count
+  double reduction_error = 0;  ///< largest world-space error after reduction, rig units
+  /// glTF nodes that the result speaks for, with a channel or without: others on them do not count.
+  std::vector<int> driven;
 };
 
 /// `nodes`: glTF node of each scene node (-1: none). Channels of `clip` on nodes of the scene are

@@ -39,9 +39,8 @@ struct KeyHash {
   std::size_t operator()(const Key& key) const {
     std::uint64_t h = key.plug.node.index;
     h = h * 0x9e3779b97f4a7c15u + key.plug.attribute;
-    h = h * 0x9e3779b97f4a7c15u + static_cast<std::uint32_t>(key.plug.element + 1);
-    h = h * 0x9e3779b97f4a7c15u + static_cast<std::uint32_t>(key.plug.component + 1) * 2 +
-        key.beneath;
+    h = h * 0x9e3779b97f4a7c15u + static_cast<std::uint32_t>(key.plug.element);
+    h = h * 0x9e3779b97f4a7c15u + static_cast<std::uint32_t>(key.plug.component) * 2 + key.beneath;
     return static_cast<std::size_t>(h ^ (h >> 29));
   }
 };

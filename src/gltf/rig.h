@@ -49,17 +49,19 @@ struct Owned {
 };
 
 struct Rig {
-  std::uint32_t id = 0;  ///< number of the rig, unique in its file
+  /// Number of the rig, unique in its file.
+  std::uint32_t id = 0;
   tags::TaggedSkeleton skeleton;
   tags::Settings settings;
-  std::vector<std::pair<std::string, int>>
-      modules;  ///< name and version of each that made something
-  std::vector<CommandRecord>
-      commands;  ///< in the order they ran; Node::command is an index into it
+  /// Name and version of each module that made something.
+  std::vector<std::pair<std::string, int>> modules;
+  /// In the order they ran; Node::command is an index into it.
+  std::vector<CommandRecord> commands;
   scene::Scene scene;
-  std::vector<int>
-      nodes;          ///< glTF node of each scene node, -1: none (constraints and other utilities)
-  int ancestor = -1;  ///< glTF node that the rig's roots are under: the rig's space; -1: the scene
+  /// glTF node of each scene node, -1: none (constraints and other utilities).
+  std::vector<int> nodes;
+  /// glTF node that the rig's roots are under: the rig's space; -1: the scene.
+  int ancestor = -1;
   Owned owned;
 };
 

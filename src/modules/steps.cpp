@@ -68,14 +68,16 @@ double decimals_for(double size) {
 
 /// Flattened polylines in control space: the number of points, then their coordinates, repeated.
 /// Rounded, because they are written out as text.
-std::vector<double> placed(const Lines& lines, const ControlSpec& spec) {
+std::vector<double> placed(const Builder& b, const Lines& lines, const ControlSpec& spec) {
   const math::Quat turn = math::between({0, 1, 0}, math::normalised(spec.facing, {0, 1, 0}));
+  Vec3 offset = spec.offset;
+  if (is_mirrored(b, spec.joint)) offset.x = -offset.x;  // expansion had turned it round
   const double decimals = decimals_for(spec.size);
   std::vector<double> out;
   for (const auto& line : lines) {
     out.push_back(static_cast<double>(line.size()));
     for (const Vec3& point : line) {
-      const Vec3 p = math::rotate(turn, point) * spec.size + spec.offset;
+      const Vec3 p = mirror_image(b, spec, math::rotate(turn, point) * spec.size + offset);
       for (double x : {p.x, p.y, p.z}) out.push_back(std::nearbyint(x * decimals) / decimals);
     }
   }

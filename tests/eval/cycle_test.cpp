@@ -20,7 +20,8 @@ Diagnostics compile(const SceneBuilder& b, const std::vector<Plug>& outputs,
                     Diagnostics diagnostics = {}) {
   eval::Request request;
   request.outputs = outputs;
-  CHECK(eval::compile(b.scene, request, diagnostics).has_value() == diagnostics.ok());
+  const bool compiled = eval::compile(b.scene, request, diagnostics).has_value();
+  CHECK(compiled == diagnostics.ok());
   return diagnostics;
 }
 
