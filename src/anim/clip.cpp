@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sampling of curves as glTF 2.0 appendix C defines it, and the times of a clip. Test:
-// tests/anim/clip_test.cpp
+// Sampling of curves as glTF 2.0 appendix C defines it, and the times of a clip.
+// Test: tests/anim/clip_test.cpp
 #include "anim/clip.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Clips: channels of keys as glTF stores them, and how they are sampled. Test:
-// tests/anim/clip_test.cpp
+// Clips: channels of keys as glTF stores them, and how they are sampled.
+// Test: tests/anim/clip_test.cpp
 #pragma once
 
 #include <memory>

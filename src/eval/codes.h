@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Diagnostic codes 560..599: compiling a scene. Test: every code is provoked in
-// tests/eval/compile_test.cpp.
+// Diagnostic codes 560..599: compiling a scene.
+// Test: every code is provoked in tests/eval/compile_test.cpp.
 #pragma once
 
 #include "base/diagnostics.h"

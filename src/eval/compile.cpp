@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Compiles what is demanded of a scene: from the outputs back through plugs, depth first with a
 // stack of its own, each plug once; a plug that is still open when it is needed again closes a
-// cycle. Components are plugs of their own, so translate.x may depend on translate.y. Test:
-// tests/eval/compile_test.cpp
+// cycle. Components are plugs of their own, so translate.x may depend on translate.y.
+// Test: tests/eval/compile_test.cpp
 #include <algorithm>
 #include <cassert>
 #include <unordered_map>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A rig compiled to a flat list of instructions over registers, in dependency order of plugs.
-// Evaluates blocks of frames: each register is `width` rows of `lanes` doubles. Test:
-// tests/eval/program_test.cpp
+// Evaluates blocks of frames: each register is `width` rows of `lanes` doubles.
+// Test: tests/eval/program_test.cpp
 #pragma once
 
 #include <cstdint>

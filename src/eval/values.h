@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Values of a scene as the numbers that registers hold, and back. Test:
-// tests/eval/evaluate_test.cpp
+// Values of a scene as the numbers that registers hold, and back.
+// Test: tests/eval/evaluate_test.cpp
 #pragma once
 
 #include <vector>

@@ -85,8 +85,7 @@ void read_owned(const json::Value& object, JsonReader& reader, Owned& out) {
 }  // namespace
 
 std::string to_json(const Rig& rig, const Sources& sources) {
-  const auto& templates = rig.skeleton.templates;
-  PlaceWriter places(sources, templates.empty() ? "" : templates.front().file);
+  PlaceWriter places(sources, reference_names(rig.skeleton.templates));
   json::Writer writer;
   writer.begin_object().member("id", rig.id);
   write_skeleton(writer, rig.skeleton, places);

@@ -18,8 +18,8 @@ inline constexpr std::size_t kMostNodes = 262144;
 inline constexpr std::size_t kMostDepth = 1024;
 inline constexpr std::size_t kMostElements = 4096;  ///< of an array attribute
 
-/// One JSON object. Names of files are made relative to the main template's folder, so that the
-/// same rig gives the same text wherever it was built.
+/// One JSON object. Names of files lose the folder that the main template lies in, so that the same
+/// rig gives the same text wherever it was built.
 std::string to_json(const Rig& rig, const Sources& sources);
 
 /// The reverse; `file` is the name for messages. Sources of the rig's files are added without their

@@ -21,13 +21,14 @@ void write_strings(json::Writer& writer, const std::vector<std::string>& texts) 
   writer.end_array();
 }
 
-void write_templates(json::Writer& writer, const tags::TaggedSkeleton& skeleton) {
-  const std::string main = skeleton.templates.empty() ? "" : skeleton.templates.front().file;
+void write_templates(json::Writer& writer, const std::vector<tags::TemplateReference>& templates) {
+  const std::vector<std::string> files = reference_names(templates);
   writer.key("templates").begin_array();
-  for (const tags::TemplateReference& reference : skeleton.templates) {
-    writer.begin_object().member("name", reference.name).member("version", reference.version);
-    if (!reference.digest.empty()) writer.member("digest", reference.digest);
-    if (!reference.file.empty()) writer.member("file", portable_name(reference.file, main));
+  for (std::size_t i = 0; i < templates.size(); ++i) {
+    writer.begin_object().member("name", templates[i].name);
+    writer.member("version", templates[i].version);
+    if (!templates[i].digest.empty()) writer.member("digest", templates[i].digest);
+    if (!files[i].empty()) writer.member("file", files[i]);
     writer.end_object();
   }
   writer.end_array();
@@ -189,7 +190,7 @@ void read_settings(const json::Value& rig, JsonReader& reader, tags::Settings& o
 void write_skeleton(json::Writer& writer, const tags::TaggedSkeleton& skeleton,
                     PlaceWriter& places) {
   writer.member("name", skeleton.name).member("global", skeleton.global);
-  write_templates(writer, skeleton);
+  write_templates(writer, skeleton.templates);
   if (!skeleton.module_pins.empty())
     write_versions(writer.key("module_pins"), skeleton.module_pins);
   write_features(writer, skeleton.features);

@@ -13,23 +13,42 @@ namespace {
 constexpr std::size_t kMostFiles = 4096;
 constexpr std::int64_t kMostLines = 100'000'000;
 
+std::string_view without_folders(std::string_view file) {
+  const std::size_t slash = file.rfind('/');
+  return slash == std::string_view::npos ? file : file.substr(slash + 1);
+}
+
+/// Parts are named without their extension.
+std::string_view without_extension(std::string_view file) {
+  return ends_with(file, ".yaml") ? file.substr(0, file.size() - 5) : file;
+}
+
 }  // namespace
 
-std::string portable_name(std::string_view file, std::string_view main_file) {
-  const std::size_t slash = main_file.rfind('/');
-  const std::string_view folder =
-      slash == std::string_view::npos ? std::string_view() : main_file.substr(0, slash + 1);
-  const auto inside = [](std::string_view name) {
-    return !starts_with(name, "/") && !starts_with(name, "../");
-  };
-  if (starts_with(file, folder) && inside(file.substr(folder.size())))
-    return std::string(file.substr(folder.size()));
-  const std::size_t last = file.rfind('/');
-  return std::string(last == std::string_view::npos ? file : file.substr(last + 1));
+std::vector<std::string> reference_names(const std::vector<tags::TemplateReference>& templates) {
+  std::vector<std::string> names;
+  for (const tags::TemplateReference& reference : templates) {
+    const std::string& file = reference.file;
+    const bool leaves = starts_with(file, "/") || file.find("..") != std::string::npos;
+    names.emplace_back(leaves || names.empty() ? without_folders(file) : file);
+  }
+  return names;
+}
+
+std::string portable_name(std::string_view file, const std::vector<std::string>& references) {
+  const std::string_view stem = without_extension(file);
+  std::string_view best;
+  for (const std::string& reference : references) {
+    const std::string_view wanted = without_extension(reference);
+    const bool fits = stem == wanted || ends_with(stem, '/' + std::string(wanted));
+    if (fits && wanted.size() > best.size()) best = wanted;
+  }
+  if (best.empty()) return std::string(without_folders(file));
+  return std::string(best) + std::string(file.substr(stem.size()));
 }
 
 int PlaceWriter::number(std::string_view file) {
-  std::string name = portable_name(file, main_file_);
+  std::string name = portable_name(file, references_);
   const auto [at, is_new] = numbers_.emplace(name, static_cast<int>(files_.size()));
   if (is_new) files_.push_back(std::move(name));
   return at->second;

@@ -10,18 +10,22 @@
 #include "base/json.h"
 #include "base/span.h"
 #include "gltf/rig_json_reader.h"
+#include "tags/tags.h"
 
 namespace rigc::gltf {
 
-/// A file's name relative to the folder of the main template; names outside of it lose their
-/// folders, because they would say where on a disk the rig was built.
-std::string portable_name(std::string_view file, std::string_view main_file);
+/// Template files as the templates name each other, without the folder that the main one lies in.
+std::vector<std::string> reference_names(const std::vector<tags::TemplateReference>& templates);
+
+/// The longest reference that a file's name ends with, else the name without folders: nothing that
+/// says where on a disk a rig was built.
+std::string portable_name(std::string_view file, const std::vector<std::string>& references);
 
 /// Names of files in the order they are first needed.
 class PlaceWriter {
  public:
-  PlaceWriter(const Sources& sources, std::string main_file)
-      : sources_(sources), main_file_(std::move(main_file)) {}
+  PlaceWriter(const Sources& sources, std::vector<std::string> references)
+      : sources_(sources), references_(std::move(references)) {}
   /// `"at": [file, line, column]` where the span is known.
   void write(json::Writer& writer, const Span& span);
   /// `"at": [file, line]` where the name is not empty.
@@ -31,7 +35,7 @@ class PlaceWriter {
  private:
   int number(std::string_view file);
   const Sources& sources_;
-  std::string main_file_;
+  std::vector<std::string> references_;
   std::map<std::string, int, std::less<>> numbers_;
   std::vector<std::string> files_;
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Exponential, logarithm, power and cube root with nothing but + - * / and scaling by powers of
 // two. Errors: exp log cbrt 1 ulp; pow 1 ulp + |y ln x| / 32 ulp; whole powers to 4 by
-// multiplication. Results beyond the largest number are the largest number. Test:
-// tests/math/elementary_test.cpp
+// multiplication. Results beyond the largest number are the largest number.
+// Test: tests/math/elementary_test.cpp
 #include <cmath>
 
 #include "math/math.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Sine, cosine, arc tangent and what follows from them, with nothing but + - * / and sqrt, so that
 // the bits are the same everywhere. Coefficients are those of the Taylor series: intervals are
-// small enough. Errors: sin cos 1 ulp, tan 2.5, atan 1, atan2 2, asin acos 3 ulp. Test:
-// tests/math/elementary_test.cpp
+// small enough. Errors: sin cos 1 ulp, tan 2.5, atan 1, atan2 2, asin acos 3 ulp.
+// Test: tests/math/elementary_test.cpp
 #include <cmath>
 
 #include "math/math.h"

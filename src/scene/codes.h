@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Diagnostic codes 400..419: formulas. Test: every code is provoked in
-// tests/scene/formula_test.cpp.
+// Diagnostic codes 400..419: formulas.
+// Test: every code is provoked in tests/scene/formula_test.cpp.
 #pragma once
 
 #include "base/diagnostics.h"

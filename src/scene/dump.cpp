@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The canonical text of a scene: nodes of the skeleton first, then by command, in the order made;
-// what differs from the kind's defaults; nodes as ordinals of the dump. Test:
-// tests/scene/dump_test.cpp
+// what differs from the kind's defaults; nodes as ordinals of the dump.
+// Test: tests/scene/dump_test.cpp
 #include <algorithm>
 
 #include "base/json.h"

@@ -68,11 +68,13 @@ class Edit {
   NodeId make(Node node);
   void reparent(NodeId node, NodeId parent);
   /// The plug exists, is no output, and the value has its type (asserted: callers checked). Setting
-  /// element n of an array that has n elements appends. A component is set in place.
+  /// element n of an array that has n elements appends. A component is set in place. Setting
+  /// `rotate` sets the rotation; setting the angles that it has changes nothing.
   void set(const Plug& plug, const Value& value);
   /// Adds a user attribute and gives its plug; the name is new on the node (asserted).
   Plug add_attribute(NodeId node, UserAttribute attribute);
-  /// Replaces a connection that is there. Types are equal (asserted).
+  /// Replaces a connection that is there. Types are equal (asserted). Connecting to element n of an
+  /// array that has n elements appends one.
   void connect(const Plug& from, const Plug& to);
   void disconnect(const Plug& to);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A recursive descent parser for formulas; one function a level of precedence, loosest first:
-// ?:  ||  &&  comparison  + -  * / %  unary - !  ^ (right to left)  primary. Test:
-// tests/scene/formula_test.cpp
+// ?:  ||  &&  comparison  + -  * / %  unary - !  ^ (right to left)  primary.
+// Test: tests/scene/formula_test.cpp
 #include "scene/formula.h"
 
 #include <algorithm>

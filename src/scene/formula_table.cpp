@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The operations of formulas and the functions that people call them by. Test:
-// tests/scene/formula_test.cpp
+// The operations of formulas and the functions that people call them by.
+// Test: tests/scene/formula_test.cpp
 #include <array>
 
 #include "scene/formula.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The scene that commands build: nodes, attributes, connections, hierarchy. It knows nothing of
-// YAML or glTF. Changes go through Edit (edit.h), which journals them. Test:
-// tests/scene/scene_test.cpp
+// YAML or glTF. Changes go through Edit (edit.h), which journals them.
+// Test: tests/scene/scene_test.cpp
 #pragma once
 
 #include <compare>
@@ -86,7 +86,8 @@ class Scene {
   Value value(const Plug& plug) const;
   double number(const Plug& plug) const;
   std::optional<Plug> source(const Plug& plug) const;  ///< what is connected into exactly this plug
-  /// Type of what the plug carries (a component is a number); nothing if there is no such plug.
+  /// Type of what the plug carries (a component is a number); nothing if there is no such plug. One
+  /// element past the end of an array is a plug: what set and connect append.
   std::optional<Type> type(const Plug& plug) const;
   /// Plug by attribute name ("translate", "roll") and component name ("x" or empty).
   std::optional<Plug> find_plug(NodeId node, std::string_view attribute,

@@ -69,7 +69,7 @@ Chain random_chain(Random& random, std::size_t joints) {
   Chain chain;
   chain.base = math::compose(random.trs());
   for (std::size_t i = 0; i < joints; ++i) {
-    chain.translates.push_back(random.direction() * random.between(0.3, 1));
+    chain.translates.push_back(random.arrow(0.3, 1));
     chain.rests.push_back(random.rotation());
   }
   chain.goal = math::compose(random.trs());
@@ -82,7 +82,8 @@ Chain gentle_chain(Random& random, std::size_t joints) {
   Chain chain = random_chain(random, joints);
   for (std::size_t i = 0; i < joints; ++i) {
     chain.translates[i] = {0, random.between(0.3, 1), 0};
-    chain.rests[i] = math::axis_angle(random.direction(), random.between(-0.4, 0.4));
+    const Vec3 axis = random.direction();
+    chain.rests[i] = math::axis_angle(axis, random.between(-0.4, 0.4));
   }
   chain.goal_offset = math::inverse(chain.goal) * chain.rest_positions().back();
   return chain;
@@ -119,8 +120,7 @@ TEST_CASE("eval chain: a goal in reach is reached") {
   for (int i = 0; i < 2000; ++i) {
     Chain chain = random.chance(50) ? random_chain(random, 3 + random.below(8))
                                     : gentle_chain(random, 3 + random.below(8));
-    const Vec3 target =
-        chain.root() + random.direction() * (chain.length() * random.between(0.5, 0.98));
+    const Vec3 target = chain.root() + random.arrow(0.5, 0.98) * chain.length();
     chain.aim_at(target);
     chain.has_pole = random.chance(50);
     chain.pole.origin = chain.root() + random.vector(3);
@@ -252,8 +252,7 @@ TEST_CASE("eval chain: the iterations are those of the paper") {
     eval::chain::Points points;
     points.count = 6;
     std::vector<Vec3> p(6);
-    for (std::size_t k = 1; k < 6; ++k)
-      p[k] = p[k - 1] + random.direction() * random.between(0.4, 1);
+    for (std::size_t k = 1; k < 6; ++k) p[k] = p[k - 1] + random.arrow(0.4, 1);
     for (int k = 0; k < 6; ++k) points.at[k] = p[static_cast<std::size_t>(k)];
     double total = 0;
     for (int k = 0; k < 5; ++k)

@@ -80,9 +80,8 @@ Limb random_limb(Random& random, bool straight = false) {
     *column = *column * size;
   if (random.chance(25)) limb.base.linear.z = -limb.base.linear.z;
   limb.start = {random.vector() * (1 / size), random.rotation(), {1, 1, 1}};
-  limb.middle = {
-      random.direction() * (random.between(0.5, 2) / size), random.rotation(), {1, 1, 1}};
-  limb.end = random.direction() * (random.between(0.5, 2) / size);
+  limb.middle = {random.arrow(0.5, 2) * (1 / size), random.rotation(), {1, 1, 1}};
+  limb.end = random.arrow(0.5, 2) * (1 / size);
   if (straight) {
     // The lower bone goes on where the upper one points to.
     limb.end = math::rotate(math::conjugate(limb.middle.rotation),
@@ -150,9 +149,8 @@ TEST_CASE("eval two bones: a goal in reach is reached and lengths stay") {
   for (int i = 0; i < 2000; ++i) {
     Limb limb = random_limb(random);
     const double shortest = std::fabs(limb.upper() - limb.lower()), longest = limb.length();
-    const Vec3 target =
-        limb.root() +
-        random.direction() * (shortest + (longest - shortest) * random.between(0.01, 0.99));
+    const Vec3 target = limb.root() + random.arrow(shortest + (longest - shortest) * 0.01,
+                                                   longest - (longest - shortest) * 0.01);
     limb.aim_at(target);
     limb.pole.origin = limb.root() + random.vector(3);
     limb.twist = random.between(-180, 180);

@@ -81,8 +81,8 @@ std::pair<std::uint32_t, std::uint32_t> add_files(Diagnostics& diagnostics) {
 void add_tags(Rig& rig, Diagnostics& diagnostics) {
   tags::TaggedSkeleton& skeleton = rig.skeleton;
   const auto [file, part] = add_files(diagnostics);
-  skeleton.templates = {{"lamp", 3, "templates/lamp.yaml", hex16(hash64("lamp"))},
-                        {"arm", 2, "templates/parts/arm.yaml", hex16(hash64("arm"))}};
+  skeleton.templates = {{"lamp", 3, "lamp.yaml", hex16(hash64("lamp"))},
+                        {"arm", 2, "parts/arm", hex16(hash64("arm"))}};
   skeleton.module_pins = {{"control", 1}};
   skeleton.features = {{"ikfk", "limb", "IK/FK", "switches \"it\"", true, {"arms", "legs"}},
                        {"stretch", "limb", "", "", false, {}}};

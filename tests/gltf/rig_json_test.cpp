@@ -117,12 +117,18 @@ TEST_CASE("gltf rig_json: random scenes come back") {
 }
 
 TEST_CASE("gltf rig_json: names of files say nothing about where a rig was built") {
-  CHECK(portable_name("/home/x/t/biped.yaml", "/home/x/t/biped.yaml") == "biped.yaml");
-  CHECK(portable_name("templates/parts/arm.yaml", "templates/biped.yaml") == "parts/arm.yaml");
-  CHECK(portable_name("/usr/share/parts/arm.yaml", "templates/biped.yaml") == "arm.yaml");
-  CHECK(portable_name("../lib/arm.yaml", "biped.yaml") == "arm.yaml");
-  CHECK(portable_name("/abs/arm.yaml", "biped.yaml") == "arm.yaml");
-  CHECK(portable_name("arm.yaml", "biped.yaml") == "arm.yaml");
+  const std::vector<std::string> names = reference_names({{"biped", 1, "/home/x/t/biped.yaml", ""},
+                                                          {"arm", 1, "parts/arm", ""},
+                                                          {"hand", 1, "hand", ""},
+                                                          {"leg", 1, "../other/leg", ""}});
+  CHECK(names == std::vector<std::string>{"biped.yaml", "parts/arm", "hand", "leg"});
+  CHECK(portable_name("/home/x/t/biped.yaml", names) == "biped.yaml");
+  CHECK(portable_name("biped.yaml", names) == "biped.yaml");
+  CHECK(portable_name("templates/parts/arm.yaml", names) == "parts/arm.yaml");
+  CHECK(portable_name("/usr/share/rigc/templates/parts/arm.yaml", names) == "parts/arm.yaml");
+  CHECK(portable_name("templates/parts/hand.yaml", names) == "hand.yaml");
+  CHECK(portable_name("../lib/forearm.yaml", names) == "forearm.yaml");
+  CHECK(portable_name("/abs/else.yaml", {}) == "else.yaml");
 }
 
 TEST_CASE("gltf rig_json: lies are found, each at its place") {

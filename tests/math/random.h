@@ -3,6 +3,7 @@
 // machine.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <random>
 
@@ -30,6 +31,19 @@ class Random {
       const math::Vec3 v = vector();
       if (math::length(v) > 0.1 && math::length(v) < 1) return math::normalised(v);
     }
+  }
+  /// A vector of any direction and a length in a range.
+  math::Vec3 arrow(double shortest, double longest) {
+    const math::Vec3 v = direction();
+    return v * between(shortest, longest);
+  }
+  /// A number of any size from 2^-spread to 2^spread, of the sign of `sign` or, where that is 0, of
+  /// either.
+  double any_size(int spread, double sign) {
+    const double mantissa = between(1, 2);
+    const int exponent = static_cast<int>(below(static_cast<std::size_t>(2 * spread))) - spread;
+    const double value = std::ldexp(mantissa, exponent);
+    return sign > 0 || (sign == 0 && chance(50)) ? value : -value;
   }
   math::Quat rotation() {
     for (;;) {

@@ -184,7 +184,7 @@ TEST_CASE("modules control: size, axis and offset place the shape, not the pivot
 }
 
 TEST_CASE("modules control: a template brings shapes of its own") {
-  const std::string shapes = "shapes:\n  - {name: tick, lines: [[[0, 0, 0], [0, 0, 1]]]}\n";
+  const std::string shapes = "shapes: {tick: {lines: [[[0, 0, 0], [0, 0, 1]]]}}\n";
   std::string text = test::body({{"hips", "{command: control, with: {shape: tick, size: 2}}"}});
   text.insert(text.find("joints:"), shapes);
   const test::Rig rig(text);

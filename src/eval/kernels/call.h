@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a kernel is handed: registers of `kLanes` frames, the arguments' places, a table. Kernels
 // have no state and no error path: their input was checked when the program was compiled, and for
-// degenerate input (zero scales, zero lengths, opposite rotations) each gives finite numbers. Test:
-// tests/eval/kernels_test.cpp
+// degenerate input (zero scales, zero lengths, opposite rotations) each gives finite numbers.
+// Test: tests/eval/numbers_test.cpp
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // IK of a chain: FABRIK (Aristidou and Lasenby 2011) in the base's space, from the rest pose each
 // frame, a fixed number of iterations. The rest pose is first turned as a whole so that its end
-// points at the goal, bends toward the pole and has the twist; lengths never change. Test:
-// tests/eval/chain_test.cpp
+// points at the goal, bends toward the pole and has the twist; lengths never change.
+// Test: tests/eval/chain_test.cpp
 #include <cmath>
 
 #include "eval/kernels/chain_steps.h"

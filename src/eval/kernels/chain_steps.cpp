@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // FABRIK, and a last closed-form step: what the iterations left open is closed by bending the chain
-// at its most bent joint, so that a goal in reach is reached exactly. Test:
-// tests/eval/chain_test.cpp
+// at its most bent joint, so that a goal in reach is reached exactly.
+// Test: tests/eval/chain_test.cpp
 #include "eval/kernels/chain_steps.h"
 
 #include <cmath>

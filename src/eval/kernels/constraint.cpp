@@ -2,8 +2,8 @@
 // Weighted constraints. Each target times its offset is brought into the driven transform's parent
 // space and taken apart there; then positions and scales are averaged by weight and rotations
 // turned toward one after the other by slerp (two targets: slerp by weight). In the parent's space
-// a rest pose comes back exactly, also under parents that are mirrored or scaled unevenly. Test:
-// tests/eval/constraint_test.cpp
+// a rest pose comes back exactly, also under parents that are mirrored or scaled unevenly.
+// Test: tests/eval/constraint_test.cpp
 #include "eval/kernels/space.h"
 #include "eval/kernels/table.h"
 

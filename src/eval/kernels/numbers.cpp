@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Kernels of formulas, one line each: a loop over lanes around an expression. Test:
-// tests/eval/numbers_test.cpp
+// Kernels of formulas, one line each: a loop over lanes around an expression.
+// Test: tests/eval/numbers_test.cpp
 #include "eval/kernels/numbers.h"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Remaps a number through a curve of points. The segment after a point has the point's
 // interpolation: none holds its value, linear, smooth eases in and out (3t^2 - 2t^3), spline is a
-// monotone cubic (Fritsch and Butland 1984; its tangents are in the table). Test:
-// tests/eval/remap_test.cpp
+// monotone cubic (Fritsch and Butland 1984; its tangents are in the table).
+// Test: tests/eval/remap_test.cpp
 #include <cmath>
 
 #include "eval/kernels/table.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Steps that solvers share: into a parent's space, weighted means. Test:
-// tests/eval/constraint_test.cpp
+// Steps that solvers share: into a parent's space, weighted means.
+// Test: tests/eval/constraint_test.cpp
 #pragma once
 
 #include "math/math.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rows of the table of kernels, complete when compiled. Test: tests/eval/kernels_test.cpp
+// The rows of the table of kernels, complete when compiled. Test: tests/eval/numbers_test.cpp
 #include "eval/kernels/table.h"
 
 #include <array>

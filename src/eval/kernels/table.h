@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one table of kernels: operation, name, function, number of arguments. Test:
-// tests/eval/kernels_test.cpp
+// The one table of kernels: operation, name, function, number of arguments.
+// Test: tests/eval/numbers_test.cpp
 #pragma once
 
 #include <cstdint>

@@ -12,14 +12,22 @@ void compose(const Call& call) {
   const double* __restrict q = call.in(1);
   const double* __restrict s = call.in(2);
   double* __restrict out = call.result();
+  double unit[4][kLanes];
   for (int lane = 0; lane < kLanes; ++lane) {
-    const double qx = q[lane], qy = q[kLanes + lane], qz = q[2 * kLanes + lane];
-    const double qw = q[3 * kLanes + lane];
-    const double squares = qx * qx + qy * qy + qz * qz + qw * qw;
-    const bool lost = !(squares > 1e-60 && squares < 1e300);
-    const double size = std::sqrt(lost ? 1.0 : squares);
-    const double x = lost ? 0.0 : qx / size, y = lost ? 0.0 : qy / size;
-    const double z = lost ? 0.0 : qz / size, w = lost ? 1.0 : qw / size;
+    const double x = q[lane], y = q[kLanes + lane], z = q[2 * kLanes + lane];
+    const double w = q[3 * kLanes + lane];
+    const double squares = x * x + y * y + z * z + w * w;
+    // A lost rotation is none, as in math::normalised; `&` because a branch would keep vectors
+    // away.
+    const bool found = (squares > 1e-60) & (squares < 1e300);
+    const double size = std::sqrt(found ? squares : 1.0);
+    unit[0][lane] = found ? x / size : 0.0;
+    unit[1][lane] = found ? y / size : 0.0;
+    unit[2][lane] = found ? z / size : 0.0;
+    unit[3][lane] = found ? w / size : 1.0;
+  }
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const double x = unit[0][lane], y = unit[1][lane], z = unit[2][lane], w = unit[3][lane];
     const double sx = s[lane], sy = s[kLanes + lane], sz = s[2 * kLanes + lane];
     out[lane] = (1 - 2 * (y * y + z * z)) * sx;
     out[kLanes + lane] = 2 * (x * y + w * z) * sx;

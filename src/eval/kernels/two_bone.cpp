@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Analytic two-bone IK by the law of cosines. Out of reach the limb is exactly straight, too near
-// it is folded to the difference of its bones. What each input means is in scene/kinds.h. Test:
-// tests/eval/two_bone_test.cpp
+// it is folded to the difference of its bones. What each input means is in scene/kinds.h.
+// Test: tests/eval/two_bone_test.cpp
 #include <cmath>
 
 #include "eval/kernels/table.h"
