@@ -75,24 +75,8 @@ class Build final : public Command {
             "rigc build biped.yaml -o b.glb --feature arm_l/ikfk=off --group hand_r=off"};
   }
   void declare(Options& options) override {
-    options.positional("TEMPLATE", request_.template_file, true,
-                       "Template file, or the name of one that comes with rigc");
+    declare_build(options, request_);
     options.text("-o,--output", "OUT.glb", out_, true, "File to write (.glb or .gltf)");
-    options.text("--model", "FILE", request_.model, false,
-                 "Fit the template to this character and keep its mesh and clips");
-    options.text("--map", "NAME|FILE", request_.map, false,
-                 "Which bone is which joint (default: by detection)");
-    options.text("--skeleton", "NODE", request_.skeleton, false,
-                 "Skeleton of the model, by a node's name or number");
-    options.text("--rest", "REST", request_.rest, false,
-                 "Pose of the model to build in: bind (default), nodes, or CLIP@SECONDS");
-    options.text("--global", "NAME", request_.global, false,
-                 "Global group of the rig (default: the template's)");
-    options.list("--feature", "[GROUP/]NAME[:SWITCH]=on|off", request_.features,
-                 "Turn a feature on or off");
-    options.list("--group", "GROUP=on|off", request_.groups, "Turn a local group on or off");
-    options.list("--only", "GROUP", request_.only, "Run only the commands of this local group");
-    options.text("--until", "JOINT/COMMAND", request_.until, false, "Stop after this command");
     options.flag("--skeleton-only", request_.skeleton_only,
                  "Make the skeleton with its tags, run nothing");
     options.flag("--time", time_, "Say on stderr where the time went");

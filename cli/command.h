@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
-#include "pipeline/environment.h"
+#include "pipeline/build.h"
 
 namespace rigc::cli {
 
@@ -53,6 +53,9 @@ class Command {
 
 /// --templates and --modules, which most commands take.
 void declare_paths(Options& options, pipeline::Paths& paths);
+
+/// What `build` and `plan` share: template, model, features, groups, how far to run.
+void declare_build(Options& options, pipeline::BuildRequest& request);
 
 std::unique_ptr<Command> make_bake();
 std::unique_ptr<Command> make_build();

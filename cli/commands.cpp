@@ -18,6 +18,26 @@ std::vector<std::unique_ptr<Command>> commands() {
   return table;
 }
 
+void declare_build(Options& options, pipeline::BuildRequest& request) {
+  options.positional("TEMPLATE", request.template_file, true,
+                     "Template file, or the name of one that comes with rigc");
+  options.text("--model", "FILE", request.model, false,
+               "Fit the template to this character and keep its mesh and clips");
+  options.text("--map", "NAME|FILE", request.map, false,
+               "Which bone is which joint (default: by detection)");
+  options.text("--skeleton", "NODE", request.skeleton, false,
+               "Skeleton of the model, by a node's name or number");
+  options.text("--rest", "REST", request.rest, false,
+               "Pose of the model to build in: bind (default), nodes, or CLIP@SECONDS");
+  options.text("--global", "NAME", request.global, false,
+               "Global group of the rig (default: the template's)");
+  options.list("--feature", "[GROUP/]NAME[:SWITCH]=on|off", request.features,
+               "Turn a feature on or off");
+  options.list("--group", "GROUP=on|off", request.groups, "Turn a local group on or off");
+  options.list("--only", "GROUP", request.only, "Run only the commands of this local group");
+  options.text("--until", "JOINT/COMMAND", request.until, false, "Stop after this command");
+}
+
 void declare_paths(Options& options, pipeline::Paths& paths) {
   options.list("--templates", "DIR", paths.templates,
                "Look for templates and parts here first (then RIGC_TEMPLATES, then those that come "

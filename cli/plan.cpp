@@ -18,19 +18,7 @@ class Plan final : public Command {
             "rigc plan biped.yaml --dot | dot -Tsvg -o plan.svg"};
   }
   void declare(Options& options) override {
-    options.positional("TEMPLATE", request_.template_file, true,
-                       "Template file, or the name of one that comes with rigc");
-    options.text("--model", "FILE", request_.model, false,
-                 "Fit the template to this character first");
-    options.text("--map", "NAME|FILE", request_.map, false,
-                 "Which bone is which joint (default: by detection)");
-    options.text("--skeleton", "NODE", request_.skeleton, false,
-                 "Skeleton of the model, by a node's name or number");
-    options.list("--feature", "[GROUP/]NAME[:SWITCH]=on|off", request_.features,
-                 "Turn a feature on or off");
-    options.list("--group", "GROUP=on|off", request_.groups, "Turn a local group on or off");
-    options.list("--only", "GROUP", request_.only, "Only the commands of this local group");
-    options.text("--until", "JOINT/COMMAND", request_.until, false, "Stop after this command");
+    declare_build(options, request_);
     options.flag("--dot", dot_, "Print a graph for Graphviz: which command uses what another made");
     declare_paths(options, request_.paths);
   }

@@ -2,11 +2,12 @@
 // Reading a scene: values, plugs by name, rest transforms. Test: tests/scene/scene_test.cpp
 #include "scene/scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <charconv>
 
-#include "fmt/format.h"
 #include "scene/storage.h"
 
 namespace rigc::scene {
