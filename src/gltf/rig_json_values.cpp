@@ -125,10 +125,10 @@ void read_attribute(const json::Value& value, JsonReader& reader, SceneMaker& ma
   }
   if (!value.is_array())
     return reader.fail(codes::kRigValue, value, fmt::format("\"{}\" is a list", attribute.name));
-  if (value.size() > kMostElements)
-    return reader.fail(
-        codes::kRigTooLarge, value,
-        fmt::format("\"{}\" has more than {} elements", attribute.name, kMostElements));
+  if (value.size() > kMostElements || !maker.takes_array(value.size()))
+    return reader.fail(codes::kRigTooLarge, value,
+                       fmt::format("\"{}\" has more than {} elements, or all arrays too many",
+                                   attribute.name, kMostElements));
   Plug element = plug;
   element.element = 0;
   for (const json::Value& item : value.items()) {

@@ -28,6 +28,13 @@ class SceneMaker {
   void add_attribute(scene::NodeId node, scene::UserAttribute attribute) {
     Once(scene_).edit.add_attribute(node, std::move(attribute));
   }
+  /// Whether there is room for an array of `count` elements. Setting one costs as much as there are
+  /// (the journal keeps all), so that a hostile file could ask for hours.
+  bool takes_array(std::size_t count) {
+    if (count * count > room_) return false;
+    room_ -= count * count;
+    return true;
+  }
 
  private:
   struct Once {
@@ -36,6 +43,7 @@ class SceneMaker {
     scene::Edit edit;
   };
   scene::Scene& scene_;
+  std::size_t room_ = std::size_t{1} << 28;
 };
 
 /// `values`, `user` and `inputs` of an open object.

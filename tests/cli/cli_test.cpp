@@ -94,18 +94,18 @@ TEST_CASE("cli: wrong usage gives status 2, an explanation on stderr and nothing
 TEST_CASE("cli: errors in the work give status 1 and write nothing") {
   const fs::path folder = rigc::test::fresh_folder("errors");
   write(folder / "in/lever.yaml", with_unknown_module());
-  fs::create_directories(folder / "out");
-  const std::string out = (folder / "out/lever.glb").string();
+  fs::create_directories(folder / "broken");
+  const std::string out = (folder / "broken/lever.glb").string();
   const Outcome build = run_rigc({"build", "lever.yaml", "-o", out}, {folder / "in", {}});
   CHECK(build.status == 1);
   CHECK(build.err.find("lever.yaml:10:") == 0);
   CHECK(build.err.find(": error[RIG0236]: ") != std::string::npos);
   CHECK(build.err.find("\"control\"") != std::string::npos);  // did you mean
   CHECK(build.out.empty());
-  CHECK(files_in(folder / "out") == 0);
+  CHECK(files_in(folder / "broken") == 0);
   CHECK(files_in(folder / "in") == 1);
 
-  write(folder / "out/lever.glb", "precious");
+  write(folder / "broken/lever.glb", "precious");
   CHECK(run_rigc({"build", "lever.yaml", "-o", out}, {folder / "in", {}}).status == 1);
   CHECK(rigc::test::file_text(out) == "precious");
   CHECK(run_rigc({"check", "lever.yaml"}, {folder / "in", {}}).status == 1);

@@ -53,7 +53,7 @@ TEST_CASE("math: agrees with Eigen") {
     CHECK((eigen(math::matrix(q) * v) - eigen(q).toRotationMatrix() * eigen(v)).norm() < 1e-14);
 
     const Vec3 angles = random.vector() * 180;
-    const auto radians = [](double degrees) { return degrees * EIGEN_PI / 180; };
+    const auto radians = [](double degrees) { return degrees * (math::kPi / 180); };
     const Eigen::Quaterniond euler =
         Eigen::AngleAxisd(radians(angles.z), Eigen::Vector3d::UnitZ()) *
         Eigen::AngleAxisd(radians(angles.y), Eigen::Vector3d::UnitY()) *

@@ -215,7 +215,7 @@ TEST_CASE("modules ik: without a goal the handle itself is moved, under the root
   REQUIRE(rig.clean());
   CHECK(test::rest_error(rig) < 1e-9);
   test::Pose pose(rig);
-  pose.translate("limb.end/ik_handle.handle", {0, 0.2, 0.1});
+  pose.move_to("limb.end/ik_handle.handle", {0, 0.32, 0.12});
   CHECK(test::distance(pose.position("limb.end"), {0, 0.32, 0.12}) < 1e-5);
 }
 

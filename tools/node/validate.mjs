@@ -11,14 +11,25 @@ const severities = ["error", "warning"];
 
 /// Messages of a file as a map from "severity CODE pointer" to how often it is there.
 async function messages(path) {
-  const report = await validateBytes(new Uint8Array(readFileSync(path)), {
+  try {
+    return countMessages((await validate(path)).issues.messages);
+  } catch (error) {
+    return new Map([["error UNREADABLE ", { count: 1, message: String(error) }]]);
+  }
+}
+
+function validate(path) {
+  return validateBytes(new Uint8Array(readFileSync(path)), {
     uri: path,
     maxIssues: 0,
     externalResourceFunction: async (uri) =>
       new Uint8Array(readFileSync(resolve(dirname(path), decodeURIComponent(uri)))),
   });
+}
+
+function countMessages(list) {
   const counts = new Map();
-  for (const { severity, code, pointer, message } of report.issues.messages) {
+  for (const { severity, code, pointer, message } of list) {
     if (severity >= severities.length) continue;
     const key = `${severities[severity]} ${code} ${pointer ?? ""}`;
     counts.set(key, { count: (counts.get(key)?.count ?? 0) + 1, message });
@@ -30,7 +41,7 @@ const models = new Map(); // path of a model -> its messages
 async function allowed(path) {
   const sidecar = `${path}.model`;
   if (!existsSync(sidecar)) return new Map();
-  const model = readFileSync(sidecar, "utf8").trim();
+  const model = resolve(dirname(path), readFileSync(sidecar, "utf8").trim());
   if (!models.has(model)) models.set(model, await messages(model));
   return models.get(model);
 }
