@@ -86,7 +86,7 @@ TEST_CASE("modules constraints: single axes follow, the others stay free") {
 
   const test::Rig scale(one("scale_constraint", ", axes: x"));
   test::Pose larger(scale);
-  larger.set(kA + "@scale", Vec3{2, 3, 4});
+  larger.set(kA + "@scale", Vec3{2, 2, 2});
   const math::Trs found = math::decompose(larger.world(kC));
   CHECK(test::distance(found.scale, {2, 1, 1}) < 1e-12);
 }
