@@ -13,7 +13,7 @@
 #include "eval/program.h"
 #include "eval/rules.h"
 #include "eval/values.h"
-#include "fmt/format.h"
+#include <fmt/format.h>
 
 namespace rigc::eval {
 

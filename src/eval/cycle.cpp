@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "eval/codes.h"
 #include "eval/rules.h"
-#include "fmt/format.h"
+#include <fmt/format.h>
 
 namespace rigc::eval {
 

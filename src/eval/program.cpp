@@ -4,7 +4,7 @@
 
 #include "base/text.h"
 #include "eval/kernels/table.h"
-#include "fmt/format.h"
+#include <fmt/format.h>
 
 namespace rigc::eval {
 

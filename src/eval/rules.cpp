@@ -6,7 +6,7 @@
 
 #include "base/text.h"
 #include "eval/rules_of_kinds.h"
-#include "fmt/format.h"
+#include <fmt/format.h>
 
 namespace rigc::eval {
 

@@ -3,7 +3,7 @@
 #include "eval/codes.h"
 #include "eval/rules_of_kinds.h"
 #include "eval/values.h"
-#include "fmt/format.h"
+#include <fmt/format.h>
 
 namespace rigc::eval {
 

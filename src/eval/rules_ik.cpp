@@ -4,7 +4,7 @@
 
 #include "eval/kernels/chain_steps.h"
 #include "eval/rules_of_kinds.h"
-#include "fmt/format.h"
+#include <fmt/format.h>
 
 namespace rigc::eval {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "eval/rules_of_kinds.h"
-#include "fmt/format.h"
+#include <fmt/format.h>
 #include "scene/formula.h"
 
 namespace rigc::eval {

@@ -38,6 +38,7 @@ NodeId Builder::make(const NewNode& request) {
   node.kind = request.kind;
   node.parent = request.parent;
   node.ids = identifiers(joint);
+  node.identity.rig = scene()[joint].identity.rig;
   node.identity.owner = owner;
   node.identity.holder = scene()[joint_].identity.owner;
   node.identity.command = job_.command.id;

@@ -125,6 +125,7 @@ class Binder {
       const Literal* value = written ? written : default_of(parameter, descriptor, pinned);
       const Span span = written && written->span.known() ? written->span : command.span;
       out_.spans_[parameter.name] = span;
+      fallback_ = written ? default_of(parameter, descriptor, pinned) : nullptr;
       if (value && !bind(parameter, *value, span)) good = false;
     }
     if (!good) return std::nullopt;
@@ -180,6 +181,7 @@ class Binder {
   bool bind_selectors(const Parameter& parameter, const Literal& value, const Span& span) {
     std::vector<NodeId> nodes;
     std::vector<Plug> plugs;
+    bool absent = false;
     const bool list = value.kind == Literal::Kind::list;
     const std::size_t count = list ? value.items.size() : 1;
     for (std::size_t i = 0; i < count; ++i) {
@@ -191,8 +193,12 @@ class Binder {
       if (!found) return false;
       if (takes_one(parameter.type) && !exactly_one(parameter, *selector, *found)) return false;
       if (!kinds_fit(parameter, *selector, *found)) return false;
+      absent = absent || found->absent_rig;
       nodes.insert(nodes.end(), found->nodes.begin(), found->nodes.end());
       plugs.insert(plugs.end(), found->plugs.begin(), found->plugs.end());
+    }
+    if (nodes.empty() && absent && fallback_) {
+      return bind_selectors(parameter, *std::exchange(fallback_, nullptr), span);
     }
     if (nodes.empty()) {
       if (parameter.required) skipped_ = Skipped{parameter.name};
@@ -273,6 +279,7 @@ class Binder {
   Diagnostics& diagnostics_;
   Parameters out_;
   std::optional<Skipped> skipped_;
+  const Literal* fallback_ = nullptr;  ///< default that stands in for a selector of an absent rig
 };
 
 std::optional<std::variant<Parameters, Skipped>> bind(const tags::CommandTag& command,

@@ -87,23 +87,27 @@ const tags::ForeignSkeleton* choose_skeleton(const std::vector<tags::ForeignSkel
   return nullptr;
 }
 
-bool check_no_rig(const gltf::File& model, const tags::ForeignSkeleton& skeleton,
-                  Diagnostics& diagnostics) {
+/// The number of the rig to be, if no rig stands on the skeleton yet.
+std::optional<std::uint32_t> free_rig_id(const gltf::File& model,
+                                         const tags::ForeignSkeleton& skeleton,
+                                         Diagnostics& diagnostics) {
   const auto rigs = gltf::read_rigs(model, diagnostics);
-  if (!rigs) return false;
+  if (!rigs) return std::nullopt;
   std::set<int> taken;
+  std::uint32_t next = 0;
   for (const gltf::Rig& rig : *rigs) {
     for (const tags::TaggedJoint& joint : rig.skeleton.joints) taken.insert(joint.foreign_node);
     taken.insert(rig.nodes.begin(), rig.nodes.end());
+    next = std::max(next, rig.id + 1);
   }
   for (const tags::ForeignJoint& joint : skeleton.joints) {
     if (!taken.count(joint.node)) continue;
     diagnostics.report(codes::kHasRig, Place(model.path, fmt::format("/nodes/{}", joint.node)),
                        "this skeleton has a rig already",
                        "`rigc update` moves it to another template version");
-    return false;
+    return std::nullopt;
   }
-  return true;
+  return next;
 }
 
 std::optional<tags::TaggedSkeleton> fit_to_model(const BuildRequest& request,
@@ -116,7 +120,10 @@ std::optional<tags::TaggedSkeleton> fit_to_model(const BuildRequest& request,
   const auto skeletons = gltf::read_skeletons(*out.model, request.rest, diagnostics);
   if (!skeletons) return std::nullopt;
   const tags::ForeignSkeleton* skeleton = choose_skeleton(*skeletons, request, diagnostics);
-  if (!skeleton || !check_no_rig(*out.model, *skeleton, diagnostics)) return std::nullopt;
+  if (!skeleton) return std::nullopt;
+  const auto id = free_rig_id(*out.model, *skeleton, diagnostics);
+  if (!id) return std::nullopt;
+  out.rig_id = *id;
   out.ancestor = skeleton->ancestor;
   const auto map = request.map.empty() ? templates::detect_map(*skeleton, folders, diagnostics)
                                        : templates::find_map(request.map, folders, diagnostics);
@@ -180,16 +187,6 @@ void record_commands(const Prepared& prepared, const processor::Processor& proce
   rig.modules.assign(versions.begin(), versions.end());
 }
 
-std::uint32_t next_rig_id(const std::optional<gltf::File>& model, Diagnostics& diagnostics) {
-  std::uint32_t next = 0;
-  if (!model) return next;
-  const auto rigs = gltf::read_rigs(*model, diagnostics);
-  if (rigs) {
-    for (const gltf::Rig& rig : *rigs) next = std::max(next, rig.id + 1);
-  }
-  return next;
-}
-
 }  // namespace
 
 std::optional<Built> build(const BuildRequest& request, const std::string& out,
@@ -198,13 +195,14 @@ std::optional<Built> build(const BuildRequest& request, const std::string& out,
   auto prepared = prepare(request, diagnostics);
   if (!prepared) return std::nullopt;
 
-  processor::Processor processor(prepared->skeleton, prepared->commands, prepared->catalogue);
+  processor::Processor processor(prepared->skeleton, prepared->commands, prepared->catalogue,
+                                 prepared->rig_id);
   if (!processor.go_to(prepared->end, diagnostics)) return std::nullopt;
   told(request, "run");
 
   Built built;
   built.fit = std::move(prepared->fit);
-  built.rig.id = next_rig_id(prepared->model, diagnostics);
+  built.rig.id = prepared->rig_id;
   built.rig.settings = prepared->settings;
   record_commands(*prepared, processor, diagnostics.sources(), built.rig);
   for (std::size_t i = 0; i < processor.position(); ++i)

@@ -37,7 +37,8 @@ struct BuildRequest {
 struct Prepared {
   catalog::Catalogue catalogue;
   std::optional<gltf::File> model;
-  int ancestor = -1;  ///< glTF node that the rig goes under
+  int ancestor = -1;         ///< glTF node that the rig goes under
+  std::uint32_t rig_id = 0;  ///< number of the rig in the file
   tags::TaggedSkeleton skeleton;
   tags::Settings settings;
   templates::FitReport fit;

@@ -16,11 +16,12 @@ namespace rigc::processor {
 using scene::NodeId;
 
 Processor::Processor(const tags::TaggedSkeleton& skeleton, const CommandList& commands,
-                     const catalog::Catalogue& catalogue)
+                     const catalog::Catalogue& catalogue, std::uint32_t rig)
     : skeleton_(skeleton),
       commands_(commands),
       catalogue_(catalogue),
-      scene_(std::make_unique<scene::Scene>()) {
+      scene_(std::make_unique<scene::Scene>()),
+      rig_(rig) {
   make_joints();
 }
 
@@ -36,6 +37,7 @@ void Processor::make_joints() {
     node.kind = scene::Kind::joint;
     node.name = joint.name;
     node.ids = joint.ids;
+    node.identity.rig = rig_;
     node.identity.owner = joint.key;
     node.origin = {joint.span, joint.name, {}};
     if (joint.parent >= 0) node.parent = made[static_cast<std::size_t>(joint.parent)];

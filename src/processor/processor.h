@@ -16,9 +16,10 @@ namespace rigc::processor {
 
 class Processor {
  public:
-  /// All arguments outlive the processor. Makes the skeleton's joints at once.
+  /// All arguments outlive the processor. Makes the skeleton's joints at once. `rig`: number of the
+  /// rig in its file.
   Processor(const tags::TaggedSkeleton& skeleton, const CommandList& commands,
-            const catalog::Catalogue& catalogue);
+            const catalog::Catalogue& catalogue, std::uint32_t rig = 0);
 
   /// Runs the next command. On an error the scene is as it was before the command; the position
   /// stays.
@@ -60,6 +61,7 @@ class Processor {
   traversal::Index index_;
   std::vector<scene::Journal> journals_;
   std::vector<bool> skipped_;
+  std::uint32_t rig_ = 0;
   double side_middle_ = 0;
 };
 

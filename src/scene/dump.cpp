@@ -6,7 +6,7 @@
 
 #include "base/json.h"
 #include "base/text.h"
-#include "fmt/format.h"
+#include <fmt/format.h>
 #include "scene/scene.h"
 #include "scene/storage.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "base/text.h"
-#include "fmt/format.h"
+#include <fmt/format.h>
 #include "scene/codes.h"
 
 namespace rigc::scene {
