@@ -50,8 +50,8 @@ class Bake final : public Command {
                   : fmt::format("  \"{}\": {} frames, {} channels, {} keys\n", printable(clip.name),
                                 clip.report.frames, clip.report.channels, clip.report.keys);
     }
-    return fmt::format("{}: {} clips, {} KB\n", printable(out_), baked.clips.size(),
-                       (baked.bytes + 1023) / 1024) +
+    return fmt::format("{}: {} clip{}, {} KB\n", printable(out_), baked.clips.size(),
+                       baked.clips.size() == 1 ? "" : "s", (baked.bytes + 1023) / 1024) +
            text;
   }
 

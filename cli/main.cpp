@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "base/text.h"
 #include "cli/command.h"
 
 namespace {
@@ -68,6 +69,20 @@ int finish(const Session& session) {
   return session.diagnostics.ok() ? 0 : 1;
 }
 
+/// A first word that is no command: said so, with the nearest one, before the parser speaks of
+/// sub-commands.
+bool unknown_command(int argc, char** argv, const std::vector<std::unique_ptr<Command>>& table) {
+  if (argc < 2 || argv[1][0] == '-') return false;
+  std::vector<std::string> names;
+  for (const auto& command : table) {
+    if (command->name() == argv[1]) return false;
+    if (!command->hidden()) names.push_back(command->name());
+  }
+  print(stderr, "rigc: there is no command \"" + rigc::printable(argv[1]) + "\"; " +
+                    rigc::suggest(argv[1], names) + "\n");
+  return true;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -77,6 +92,7 @@ int main(int argc, char** argv) {
   app.get_formatter()->column_width(34);
   Session session;
   auto table = rigc::cli::commands();
+  if (unknown_command(argc, argv, table)) return 2;
   for (auto& command : table) {
     CLI::App* sub = app.add_subcommand(command->name(), command->summary());
     ParserOptions options(*sub);

@@ -34,9 +34,9 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-/// The extra arguments of a folder, one a line; `$CORPUS` stands for the corpus' folder.
-std::vector<std::string> extra_arguments(const fs::path& folder) {
-  std::vector<std::string> arguments = rigc::test::lines_of(rigc::test::file_text(folder / "args"));
+/// Arguments that a file of the folder gives, one a line; `$CORPUS` stands for the corpus' folder.
+std::vector<std::string> arguments_of(const fs::path& file) {
+  std::vector<std::string> arguments = rigc::test::lines_of(rigc::test::file_text(file));
   for (std::string& argument : arguments) {
     const auto at = argument.find("$CORPUS");
     if (at != std::string::npos) argument.replace(at, 7, rigc::test::corpus_folder().string());
@@ -44,11 +44,20 @@ std::vector<std::string> extra_arguments(const fs::path& folder) {
   return arguments;
 }
 
+bool needs_corpus(const fs::path& folder) {
+  const std::string arguments =
+      rigc::test::file_text(folder / "args") + rigc::test::file_text(folder / "bad_args");
+  return arguments.find("$CORPUS") != std::string::npos;
+}
+
 Outcome run_in(const fs::path& folder, const std::string& command, const std::string& input,
                const fs::path& output) {
   std::vector<std::string> arguments = {command, input};
   if (command == "build") arguments.insert(arguments.end(), {"-o", output.string()});
-  for (const std::string& extra : extra_arguments(folder)) arguments.push_back(extra);
+  for (const std::string& extra : arguments_of(folder / "args")) arguments.push_back(extra);
+  if (input == "bad.yaml") {
+    for (const std::string& extra : arguments_of(folder / "bad_args")) arguments.push_back(extra);
+  }
   return rigc::test::run_rigc(arguments, {folder, {}});
 }
 
@@ -123,9 +132,7 @@ TEST_CASE("cli bad: every bad input gives exactly its diagnostics and its repair
   for (const fs::path& folder : folders) {
     const std::string name = folder.filename().string();
     INFO("tests/bad/" << name);
-    const bool needs_corpus =
-        rigc::test::file_text(folder / "args").find("$CORPUS") != std::string::npos;
-    if (needs_corpus && rigc::test::corpus_folder().empty()) {
+    if (needs_corpus(folder) && rigc::test::corpus_folder().empty()) {
       MESSAGE("the corpus is not here: left out tests/bad/" << name);
       continue;
     }

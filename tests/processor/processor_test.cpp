@@ -46,7 +46,7 @@ joints:
 
 }  // namespace
 
-TEST_CASE("processor: random templates build, rest and compile") {
+TEST_CASE("processor: random templates build and compile") {
   int skipped = 0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     CAPTURE(seed);
@@ -55,12 +55,10 @@ TEST_CASE("processor: random templates build, rest and compile") {
     REQUIRE(rig.listed());
     CHECK(rig.diagnostics.ok());
     skipped += static_cast<int>(rig.diagnostics.warnings());
-    CHECK(eval::worlds(rig.scene(), rig.scene().nodes().empty()
-                                        ? std::vector<scene::NodeId>{}
-                                        : std::vector{rig.scene().nodes().front()})
-              .size() == 1);
+    CHECK(eval::worlds(rig.scene(), {rig.scene().nodes().front()}).size() == 1);
+    if (rig.diagnostics.warnings() > 0) CHECK(test::codes(rig.diagnostics).find("RIG0503") == 0);
   }
-  CHECK(skipped == 0);
+  CHECK(skipped > 0);
 }
 
 TEST_CASE("processor: law 1, two processors give the same scene") {
@@ -200,7 +198,7 @@ TEST_CASE("processor: a skipped command is reported, changes nothing, and can be
   REQUIRE(rig.processor().step(rig.diagnostics));
   CHECK(rig.scene().dump() == before);
   CHECK(rig.processor().skipped(0));
-  CHECK(test::places(rig.diagnostics) == "RIG0503 10:17\n");
+  CHECK(test::places(rig.diagnostics) == "RIG0503 10:19\n");
   CHECK(rig.diagnostics.ok());
   REQUIRE(rig.processor().step(rig.diagnostics));
   CHECK_FALSE(rig.processor().skipped(1));

@@ -158,11 +158,14 @@ class Generator {
             "{{command: control, id: c{}, with: {{drive: off, shape: {}, orient: {}}}}}", n,
             shape(), orient()));
         break;
-      case 6:
+      case 6:  // finds nothing: is skipped, or counts as left out
         at.commands.push_back(
-            fmt::format("{{command: control, id: o{}, stage: finish, with: {{drive: off, parent: "
-                        "\"{}.none?\"}}}}",
-                        n, at.local));
+            random_.chance(0.5)
+                ? fmt::format("{{command: fk_chain, id: f{}, with: {{joints: \"{}.none?\"}}}}", n,
+                              at.local)
+                : fmt::format("{{command: control, id: o{}, stage: finish, with: {{drive: off, "
+                              "parent: \"{}.none?\"}}}}",
+                              n, at.local));
         break;
       case 7:
         add_computed(at, n);
