@@ -28,8 +28,6 @@ Processor::Processor(const tags::TaggedSkeleton& skeleton, const CommandList& co
 void Processor::make_joints() {
   scene::Journal journal;  // the skeleton is never undone
   scene::Edit edit(*scene_, journal, &index_);
-  double low = 0, high = 0;
-  std::vector<math::Affine> worlds;
   std::vector<NodeId> made;
   for (std::size_t j = 0; j < skeleton_.joints.size(); ++j) {
     const tags::TaggedJoint& joint = skeleton_.joints[j];
@@ -46,14 +44,11 @@ void Processor::make_joints() {
     edit.set({id, scene::transform::kRotation}, joint.rest.rotation);
     edit.set({id, scene::transform::kScale}, joint.rest.scale);
     made.push_back(id);
-    const math::Affine local = math::compose(joint.rest);
-    worlds.push_back(joint.parent >= 0 ? worlds[static_cast<std::size_t>(joint.parent)] * local
-                                       : local);
-    const double side = math::dot(worlds.back().origin, skeleton_.character.left);
-    low = j == 0 ? side : std::min(low, side);
-    high = j == 0 ? side : std::max(high, side);
   }
-  side_middle_ = 0.5 * (low + high);
+  // A skeleton stands at its first joint, also where a model does not stand at the origin.
+  if (!made.empty()) {
+    side_middle_ = math::dot(skeleton_.joints[0].rest.translation, skeleton_.character.left);
+  }
 }
 
 traversal::Context Processor::context(std::size_t command) const {

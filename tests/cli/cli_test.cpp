@@ -128,6 +128,37 @@ TEST_CASE("cli: status 3 where the file system refuses") {
   CHECK(run_rigc({"build", "lever.yaml", "-o", "folder.glb"}, {folder, {}}).status == 3);
 }
 
+TEST_CASE("cli: mistakes on the command line are named") {
+  const fs::path folder = rigc::test::fresh_folder("named");
+  write(folder / "lever.yaml", kTemplate);
+  const rigc::test::Surroundings here{folder, {}};
+  REQUIRE(run_rigc({"build", "lever.yaml", "-o", "lever.glb"}, here).status == 0);
+  REQUIRE(run_rigc({"bake", "lever.glb", "-o", "baked.glb"}, here).status == 0);
+  struct Mistake {
+    std::vector<std::string> arguments;
+    std::string code;
+  };
+  for (const Mistake& mistake : {
+           Mistake{{"build", "no_such_template", "-o", "x.glb"}, "RIG0290"},
+           {{"build", "lever.yaml", "-o", "x.fbx"}, "RIG0759"},
+           {{"query", "baked.glb", "lever.base"}, "RIG0754"},
+           {{"query", "lever.glb", "lever.base/control | | x"}, "RIG0150"},
+           {{"bake", "lever.glb", "-o", "x.glb", "--start", "2", "--end", "1"}, "RIG0757"},
+           {{"bake", "lever.glb", "-o", "x.glb", "--clip", "walk"}, "RIG0755"},
+           {{"query", "lever.glb", "prop:lever.base"}, "RIG0760"},
+           {{"modules", "contrl"}, "RIG0761"},
+       }) {
+    const Outcome outcome = run_rigc(mistake.arguments, here);
+    INFO(mistake.code << " in\n" << outcome.err);
+    CHECK(outcome.status == 1);
+    const auto printed = rigc::test::printed_diagnostics(outcome.err, "");
+    REQUIRE(printed.size() == 1);
+    CHECK(printed[0].text.find(mistake.code) != std::string::npos);
+    CHECK_FALSE(fs::exists(folder / "x.glb"));
+    CHECK_FALSE(fs::exists(folder / "x.fbx"));
+  }
+}
+
 TEST_CASE("cli: --json prints one JSON document and nothing else") {
   const fs::path folder = rigc::test::fresh_folder("json");
   write(folder / "lever.yaml", kTemplate);
