@@ -16,7 +16,7 @@ using rigc::cli::Command;
 using rigc::cli::Options;
 using rigc::cli::Session;
 
-constexpr const char* kVersion = "rigc 0.1.0\n";
+constexpr const char* kVersion = "rigc 0.1.0";
 
 /// Hands a command's arguments to the parser.
 class ParserOptions final : public Options {

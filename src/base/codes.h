@@ -106,7 +106,7 @@ inline constexpr Code kUnknownKey{
 inline constexpr Code kJsonSyntax{60, Severity::error, "JSON syntax",
                                   "The text is not JSON as RFC 8259 defines it."};
 inline constexpr Code kJsonTooLarge{61, Severity::error, "JSON is too large",
-                                    "A JSON text has at most 1 GiB and 67,108,864 values."};
+                                    "A JSON text has at most 256 MiB and 67,108,864 values."};
 inline constexpr Code kJsonBadUtf8{62, Severity::error, "JSON is not UTF-8",
                                    "JSON strings are UTF-8; this one has other bytes."};
 inline constexpr Code kJsonBadString{63, Severity::error, "bad JSON string",

@@ -15,7 +15,7 @@
 namespace rigc::json {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr std::size_t kMostBytes = std::size_t{1} << 28;
 constexpr std::size_t kMostItems = std::size_t{1} << 26;
 constexpr std::size_t kMostDepth = 512;
 constexpr std::size_t kFewMembers = 8;

@@ -117,7 +117,8 @@ class Binder {
 
   std::optional<std::variant<Parameters, Skipped>> bind(const tags::CommandTag& command,
                                                         const catalog::Descriptor& descriptor,
-                                                        int pinned) {
+                                                        int pinned,
+                                                        const catalog::Descriptor* base) {
     out_.command_ = command.span;
     bool good = true;
     for (const Parameter& parameter : descriptor.parameters) {
@@ -128,12 +129,23 @@ class Binder {
       fallback_ = written ? default_of(parameter, descriptor, pinned) : nullptr;
       if (value && !bind(parameter, *value, span)) good = false;
     }
+    if (base) good = bind_defaults(*base, descriptor) && good;
     if (!good) return std::nullopt;
     if (skipped_) return std::move(*skipped_);
     return std::move(out_);
   }
 
  private:
+  /// Defaults of the module whose constructor runs, for parameters that `descriptor` does not have.
+  bool bind_defaults(const catalog::Descriptor& base, const catalog::Descriptor& descriptor) {
+    bool good = true;
+    for (const Parameter& parameter : base.parameters) {
+      if (descriptor.find(parameter.name) || !parameter.default_value) continue;
+      good = bind(parameter, *parameter.default_value, out_.command_) && good;
+    }
+    return good;
+  }
+
   bool bind(const Parameter& parameter, const Literal& value, const Span& span) {
     auto& slot = out_.values_;
     const bool metres = parameter.unit == "metre";
@@ -282,12 +294,10 @@ class Binder {
   const Literal* fallback_ = nullptr;  ///< default that stands in for a selector of an absent rig
 };
 
-std::optional<std::variant<Parameters, Skipped>> bind(const tags::CommandTag& command,
-                                                      const catalog::Descriptor& descriptor,
-                                                      int pinned, double unit,
-                                                      const traversal::Context& context,
-                                                      Diagnostics& diagnostics) {
-  return Binder(unit, context, diagnostics).bind(command, descriptor, pinned);
+std::optional<std::variant<Parameters, Skipped>> bind(
+    const tags::CommandTag& command, const catalog::Descriptor& descriptor, int pinned, double unit,
+    const traversal::Context& context, Diagnostics& diagnostics, const catalog::Descriptor* base) {
+  return Binder(unit, context, diagnostics).bind(command, descriptor, pinned, base);
 }
 
 }  // namespace rigc::modules

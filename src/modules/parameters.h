@@ -61,12 +61,14 @@ struct Skipped {
 
 /// Binds a command's arguments (checked when the template was read) and the descriptor's defaults.
 /// `pinned` is the module version whose defaults count, 0 for the newest. `unit`: rig units of a
-/// template's metre.
+/// template's metre. `base`: where the descriptor lends another module's constructor, that
+/// module's; its defaults stand in for parameters that the descriptor does not have.
 std::optional<std::variant<Parameters, Skipped>> bind(const tags::CommandTag& command,
                                                       const catalog::Descriptor& descriptor,
                                                       int pinned, double unit,
                                                       const traversal::Context& context,
-                                                      Diagnostics& diagnostics);
+                                                      Diagnostics& diagnostics,
+                                                      const catalog::Descriptor* base = nullptr);
 
 /// A colour's name or [r, g, b] as sRGB 0..1.
 std::optional<math::Vec3> color_from(const Literal& literal);

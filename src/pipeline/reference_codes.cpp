@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "bake/codes.h"
 #include "base/codes.h"
 #include "catalog/codes.h"
 #include "eval/codes.h"
@@ -42,6 +43,7 @@ std::vector<const Code*> all_codes() {
   add(modules::codes::kModulesCodes, codes);
   add(processor::codes::kProcessorCodes, codes);
   add(eval::codes::kEvalCodes, codes);
+  add(bake::codes::kBakeCodes, codes);
   add(gltf::codes::kGltfCodes, codes);
   add(gltf::codes::kRigCodes, codes);
   add(pipeline::codes::kPipelineCodes, codes);

@@ -18,7 +18,12 @@ inline constexpr Code kSkipped{
     503, Severity::warning, "command skipped",
     "A required selector that ends in `?` found nothing, so the command did not run."};
 
+inline constexpr Code kDoesNotFit{
+    504, Severity::error, "descriptor does not fit its implementation",
+    "A descriptor whose `implementation` is another module declares that module's required "
+    "parameters, and parameters that both have with the same type."};
+
 inline constexpr const Code* kProcessorCodes[] = {&kNotBuiltIn, &kNoSuchCommand, &kNoSuchGroup,
-                                                  &kSkipped};
+                                                  &kSkipped, &kDoesNotFit};
 
 }  // namespace rigc::processor::codes

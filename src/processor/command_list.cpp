@@ -17,12 +17,49 @@ bool is_on(const tags::TaggedJoint& joint, const tags::CommandTag& tag) {
   return tag.on && (tag.feature < 0 || joint.features[static_cast<std::size_t>(tag.feature)].on);
 }
 
-/// The constructor of a module: its own, or that of the module that its descriptor names.
-const modules::Module* implementation(const tags::CommandTag& tag,
-                                      const catalog::Descriptor* descriptor) {
-  if (!descriptor) return nullptr;
-  const bool own = descriptor->implementation == "builtin";
-  return modules::find(own ? tag.module : descriptor->implementation);
+/// Whether a descriptor declares what the constructor of another module asks for.
+bool check_fits(const catalog::Descriptor& descriptor, const catalog::Descriptor& base,
+                const Span& span, Diagnostics& diagnostics) {
+  bool good = true;
+  for (const catalog::Parameter& needed : base.parameters) {
+    const catalog::Parameter* own = descriptor.find(needed.name);
+    if (own ? own->type == needed.type : !needed.required) continue;
+    diagnostics.report(
+        codes::kDoesNotFit, span,
+        fmt::format("module \"{}\" is implemented by \"{}\", which takes \"{}\" "
+                    "of type {}",
+                    descriptor.module, base.module, needed.name, name_of(needed.type)),
+        fmt::format("declare it in {}.yaml", descriptor.module));
+    good = false;
+  }
+  return good;
+}
+
+/// The command with its constructor: the module's own, or that of the module that its descriptor
+/// names.
+std::optional<Command> make_command(const tags::CommandTag& tag,
+                                    const catalog::Catalogue& catalogue, Diagnostics& diagnostics) {
+  Command command;
+  command.descriptor = catalogue.find(tag.module);
+  if (command.descriptor) {
+    const bool own = command.descriptor->implementation == "builtin";
+    const std::string& name = own ? tag.module : command.descriptor->implementation;
+    command.module = modules::find(name);
+    if (!own) command.base = catalogue.find(name);
+  }
+  if (!command.module) {
+    diagnostics.report(
+        codes::kNotBuiltIn, tag.span,
+        fmt::format("module \"{}\" has no implementation in this rigc", printable(tag.module)),
+        suggest(tag.module, catalogue.modules()));
+    return std::nullopt;
+  }
+  if (command.base && !check_fits(*command.descriptor, *command.base, tag.span, diagnostics)) {
+    return std::nullopt;
+  }
+  const auto stage = catalog::parse_stage(tag.stage);
+  command.stage = stage ? *stage : command.descriptor->stage;
+  return command;
 }
 
 }  // namespace
@@ -36,19 +73,12 @@ std::optional<CommandList> list(const tags::TaggedSkeleton& skeleton,
     for (std::size_t t = 0; t < joint.commands.size(); ++t) {
       const tags::CommandTag& tag = joint.commands[t];
       if (!is_on(joint, tag)) continue;
-      const catalog::Descriptor* descriptor = catalogue.find(tag.module);
-      Command command{j, t, catalog::Stage::build, descriptor, implementation(tag, descriptor)};
-      if (!command.descriptor || !command.module) {
-        diagnostics.report(
-            codes::kNotBuiltIn, tag.span,
-            fmt::format("module \"{}\" has no implementation in this rigc", printable(tag.module)),
-            suggest(tag.module, catalogue.modules()));
-        good = false;
-        continue;
-      }
-      const auto stage = catalog::parse_stage(tag.stage);
-      command.stage = stage ? *stage : command.descriptor->stage;
-      out.commands.push_back(command);
+      auto command = make_command(tag, catalogue, diagnostics);
+      good = good && command;
+      if (!command) continue;
+      command->joint = j;
+      command->tag = t;
+      out.commands.push_back(*command);
     }
   }
   if (!good) return std::nullopt;

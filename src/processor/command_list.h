@@ -20,6 +20,8 @@ struct Command {
   catalog::Stage stage = catalog::Stage::build;
   const catalog::Descriptor* descriptor = nullptr;  ///< owned by the catalogue
   const modules::Module* module = nullptr;
+  /// Of the module whose constructor runs, where the descriptor names another one; else null.
+  const catalog::Descriptor* base = nullptr;
 };
 
 struct CommandList {

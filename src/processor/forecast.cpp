@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Forecasts: a later or switched-off command whose nodes the selector would find.
-// Test: tests/traversal/forecast_test.cpp
+// Test: tests/processor/forecast_test.cpp
 #include "processor/forecast.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/text.h"
 
@@ -96,22 +97,39 @@ std::string made_by(const tags::TaggedJoint& joint, const tags::CommandTag& tag,
                      printable(std::string(sources.name(tag.span.file))), tag.span.line);
 }
 
-}  // namespace
-
-std::string forecast(const tags::TaggedSkeleton& skeleton, const CommandList& commands,
-                     std::size_t command, const selector::Choice& choice,
-                     const traversal::Context& context, const Sources& sources) {
-  if (!choice.made && choice.label.empty()) return {};
-  const Forecaster forecaster(choice, context);
-  for (std::size_t later = command + 1; later < commands.commands.size(); ++later) {
-    const Command& candidate = commands.commands[later];
-    const tags::TaggedJoint& joint = skeleton.joints[candidate.joint];
-    const tags::CommandTag& tag = tag_of(skeleton, candidate);
-    if (!forecaster.would_make(joint, tag, candidate.descriptor)) continue;
-    return made_by(joint, tag, sources, "runs later") +
-           "; give that command an earlier stage or this one a later";
+/// The first command outside the list, because it or its feature is off, that would make it.
+std::string switched_off(const Outlook& outlook, const Forecaster& forecaster) {
+  std::set<std::pair<std::size_t, std::size_t>> listed;
+  for (const Command& command : outlook.commands.commands) {
+    listed.emplace(command.joint, command.tag);
+  }
+  for (std::size_t j = 0; j < outlook.skeleton.joints.size(); ++j) {
+    const tags::TaggedJoint& joint = outlook.skeleton.joints[j];
+    for (std::size_t t = 0; t < joint.commands.size(); ++t) {
+      const tags::CommandTag& tag = joint.commands[t];
+      if (listed.count({j, t})) continue;
+      if (!forecaster.would_make(joint, tag, outlook.catalogue.find(tag.module))) continue;
+      return made_by(joint, tag, outlook.sources, "is switched off");
+    }
   }
   return {};
+}
+
+}  // namespace
+
+std::string forecast(const Outlook& outlook, const selector::Choice& choice,
+                     const traversal::Context& context) {
+  if (!choice.made && choice.label.empty()) return {};
+  const Forecaster forecaster(choice, context);
+  const auto& commands = outlook.commands.commands;
+  for (std::size_t later = outlook.command + 1; later < commands.size(); ++later) {
+    const tags::TaggedJoint& joint = outlook.skeleton.joints[commands[later].joint];
+    const tags::CommandTag& tag = tag_of(outlook.skeleton, commands[later]);
+    if (!forecaster.would_make(joint, tag, commands[later].descriptor)) continue;
+    return made_by(joint, tag, outlook.sources, "runs later") +
+           "; give that command an earlier stage or this one a later";
+  }
+  return switched_off(outlook, forecaster);
 }
 
 }  // namespace rigc::processor

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Says which command would make what a selector names but does not find: one that runs later, or
 // one that is switched off. Only asked when a selector failed. Test:
-// tests/traversal/forecast_test.cpp
+// tests/processor/forecast_test.cpp
 #pragma once
 
 #include <string>
@@ -13,10 +13,18 @@
 
 namespace rigc::processor {
 
+/// What a forecast looks at: the whole list, and the command whose selector found nothing.
+struct Outlook {
+  const tags::TaggedSkeleton& skeleton;
+  const CommandList& commands;
+  const catalog::Catalogue& catalogue;
+  std::size_t command = 0;  ///< index in the list
+  const Sources& sources;
+};
+
 /// `made by "control" on joint "elbow", which runs later, biped.yaml:88; ...`; empty where no
-/// command would make it. `command` is the index of the one whose selector found nothing.
-std::string forecast(const tags::TaggedSkeleton& skeleton, const CommandList& commands,
-                     std::size_t command, const selector::Choice& choice,
-                     const traversal::Context& context, const Sources& sources);
+/// command would make it.
+std::string forecast(const Outlook& outlook, const selector::Choice& choice,
+                     const traversal::Context& context);
 
 }  // namespace rigc::processor

@@ -92,7 +92,8 @@ bool matches(const Node& node, const selector::Made& made) {
 
 class Resolver {
  public:
-  explicit Resolver(const Context& context) : context_(context) {}
+  /// `reported`: whether anybody will read why nothing was found.
+  Resolver(const Context& context, bool reported) : context_(context), reported_(reported) {}
 
   Answer resolve(const Choice& choice) {
     Answer answer;
@@ -224,7 +225,7 @@ class Resolver {
   }
 
   std::string forecast(const Choice& choice) const {
-    return context_.forecast ? context_.forecast(choice) : std::string();
+    return reported_ && context_.forecast ? context_.forecast(choice) : std::string();
   }
 
   void filter_kind(const Choice& choice, Answer& answer) const {
@@ -236,6 +237,7 @@ class Resolver {
   }
 
   const Context& context_;
+  bool reported_;
 };
 
 /// The plugs that `choice` names on nodes; false where an attribute is missing (reported).
@@ -275,7 +277,7 @@ std::string describe(const scene::Scene& scene, NodeId id) {
 
 std::optional<Found> resolve(const selector::Selector& selector, const Context& context,
                              Diagnostics& diagnostics) {
-  Resolver resolver(context);
+  Resolver resolver(context, !selector.optional);
   Answer last;
   for (const Choice& choice : selector.choices) {
     Answer answer = resolver.resolve(choice);

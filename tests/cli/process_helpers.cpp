@@ -52,9 +52,18 @@ int wait_for(pid_t child) {
 
 }  // namespace
 
-Outcome run_rigc(const std::vector<std::string>& arguments, const Surroundings& surroundings) {
+std::string rigc_binary() {
   const char* binary = std::getenv("RIGC_BINARY");
   if (binary == nullptr) throw std::runtime_error("RIGC_BINARY is not set; run the tests by ctest");
+  return binary;
+}
+
+Outcome run_rigc(const std::vector<std::string>& arguments, const Surroundings& surroundings) {
+  return run_program(rigc_binary(), arguments, surroundings);
+}
+
+Outcome run_program(const std::string& binary, const std::vector<std::string>& arguments,
+                    const Surroundings& surroundings) {
   static int runs = 0;
   const fs::path stem = fs::temp_directory_path() /
                         ("rigc_test_" + std::to_string(getpid()) + "_" + std::to_string(++runs));
@@ -74,9 +83,10 @@ Outcome run_rigc(const std::vector<std::string>& arguments, const Surroundings& 
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_CREAT | O_WRONLY, 0600);
   posix_spawn_file_actions_addchdir_np(&actions, surroundings.folder.c_str());
   pid_t child = 0;
-  const int failed = posix_spawn(&child, binary, &actions, nullptr, argv.data(), envp.data());
+  const int failed =
+      posix_spawn(&child, binary.c_str(), &actions, nullptr, argv.data(), envp.data());
   posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) throw std::runtime_error("cannot start " + std::string(binary));
+  if (failed != 0) throw std::runtime_error("cannot start " + binary);
 
   Outcome outcome;
   outcome.status = wait_for(child);

@@ -24,6 +24,12 @@ struct Surroundings {
 /// Runs the program of RIGC_BINARY with these arguments and no standard input.
 Outcome run_rigc(const std::vector<std::string>& arguments, const Surroundings& surroundings = {});
 
+/// The same for another program by its path.
+Outcome run_program(const std::string& binary, const std::vector<std::string>& arguments,
+                    const Surroundings& surroundings = {});
+/// Path of the program of RIGC_BINARY.
+std::string rigc_binary();
+
 /// A diagnostic as it was printed: `line:column RIG0123`, with the file's name and a colon before
 /// it where that is not `main_file`, and `-` instead of a place that is no line.
 struct Printed {

@@ -219,6 +219,33 @@ TEST_CASE("modules ik: without a goal the handle itself is moved, under the root
   CHECK(test::distance(pose.position("limb.end"), {0, 0.32, 0.12}) < 1e-5);
 }
 
+TEST_CASE("modules ik: a straight chain bends to the stated side, on every model") {
+  const std::string goal = "tail[0]/control#goal";
+  for (const auto& row : std::map<std::string, Vec3>{{"up", {0, 1, 0}}, {"left", {1, 0, 0}}}) {
+    const std::string text = test::tail(
+        6, {{"base", "{command: control, with: {}}"},
+            {"tail",
+             "{command: control, id: goal, with: {drive: off, parent: base/control}}\n"
+             "{command: ik_handle, with: {solver: chain, start: \"tail[0]\", end: \"tail[END]\", "
+             "goal: \"./control#goal\", bend: " +
+                 row.first + "}}"}});
+    for (const test::Model& model : test::models()) {
+      CAPTURE(model.name);
+      if (model.name == "scaled root joint") continue;  // scales the chain's own first joint
+      const test::Rig rig(text, model.change);
+      INFO(test::text(rig.diagnostics));
+      REQUIRE(rig.clean());
+      CHECK(test::rest_error(rig) < 1e-9);
+      test::Pose pose(rig);
+      pose.move_to(goal, pose.position(goal) + model.by.linear * Vec3{0, 0, 0.4});
+      const Vec3 middle = pose.position("tail[3]") - pose.position("tail[0]");
+      const Vec3 out = model.by.linear * row.second;
+      CHECK(math::dot(middle, out) > 0.05 * math::dot(out, out));
+      CHECK(length_error(rig, pose) < 1e-9);
+    }
+  }
+}
+
 TEST_CASE("modules ik: the chain solver reaches with any number of joints") {
   const test::Commands commands{
       {"base", "{command: control, with: {}}"},

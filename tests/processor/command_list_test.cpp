@@ -4,7 +4,11 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "base/text.h"
+#include "processor/processor.h"
 #include "support/rig.h"
 #include "tags/settings.h"
 
@@ -122,4 +126,38 @@ TEST_CASE("processor command_list: a module without implementation is reported w
   CHECK(test::codes(diagnostics) == "RIG0500 RIG0500");
   CHECK(diagnostics.all().front().place.span.known());
   CHECK(diagnostics.all().back().hint.find("set") != std::string::npos);
+}
+
+TEST_CASE("processor command_list: a descriptor may run another module's constructor") {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(RIGC_TEST_OUT) / "processor_modules";
+  fs::create_directories(folder);
+  std::ofstream(folder / "marker.yaml") << R"(module: marker
+version: 1
+title: Marker
+category: basics
+summary: A transform under another name.
+implementation: transform
+parameters:
+  - {name: offset, type: vec3, unit: metre, default: [0, 1, 0], help: Where it is.}
+creates:
+  - {role: transform, kind: transform, per: command, help: The transform.}
+)";
+  Diagnostics diagnostics;
+  catalog::Catalogue catalogue;
+  REQUIRE(catalogue.add_folder(folder.string(), diagnostics));
+  auto skeleton = test::skeleton_from(kTemplate, diagnostics);
+  REQUIRE(skeleton);
+  for (tags::TaggedJoint& joint : skeleton->joints) joint.commands.clear();
+  tags::CommandTag marker;
+  marker.module = marker.id = "marker";
+  skeleton->joints[0].commands = {marker};
+  const auto list = processor::list(*skeleton, catalogue, diagnostics);
+  INFO(test::text(diagnostics));
+  REQUIRE(list);
+  processor::Processor processor(*skeleton, *list, catalogue);
+  REQUIRE(processor.run(diagnostics));
+  const auto made = processor.index().made_by("order", "marker");
+  REQUIRE(made.size() == 1);
+  CHECK(processor.scene().rest_world(made[0]).origin == math::Vec3{0, 1, 0});
 }

@@ -40,6 +40,10 @@ std::vector<Model> make_models() {
                       turn_axes(skeleton, 4);
                       scale_root_joint(skeleton, 100);
                     }});
+  models.push_back({"scaled hierarchy", {}, [](tags::TaggedSkeleton& skeleton) {
+                      turn_axes(skeleton, 5);
+                      scale_hierarchy(skeleton, 0.01);
+                    }});
   return models;
 }
 

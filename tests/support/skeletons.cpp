@@ -88,6 +88,18 @@ void scale_root_joint(tags::TaggedSkeleton& skeleton, double scale) {
   }
 }
 
+void scale_hierarchy(tags::TaggedSkeleton& skeleton, double scale) {
+  std::vector<Affine> at = worlds(skeleton);
+  for (std::size_t j = 0; j < at.size(); ++j) {
+    int root = static_cast<int>(j);
+    while (skeleton.joints[static_cast<std::size_t>(root)].parent >= 0) {
+      root = skeleton.joints[static_cast<std::size_t>(root)].parent;
+    }
+    if (root == 0) at[j].linear = times(at[j].linear, scale);
+  }
+  set_worlds(skeleton, at);
+}
+
 Affine similarity(double scale, math::Quat rotation, int mirror_axis) {
   Mat3 linear = math::matrix(rotation);
   if (mirror_axis >= 0) {

@@ -43,6 +43,10 @@ void transform(tags::TaggedSkeleton& skeleton, const math::Affine& by);
 /// The first root joint gets this scale and everything under it shrinks to stay where it is.
 void scale_root_joint(tags::TaggedSkeleton& skeleton, double scale);
 
+/// The first root joint gets this scale and all below are scaled by it; every joint stays where it
+/// is.
+void scale_hierarchy(tags::TaggedSkeleton& skeleton, double scale);
+
 /// A similarity: reflection at the plane across `mirror_axis` (or none: -1), scale, rotation.
 math::Affine similarity(double scale, math::Quat rotation, int mirror_axis = -1);
 

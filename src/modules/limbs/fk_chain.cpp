@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // fk_chain: a control for each joint of a chain, each under the one before.
 // Test: tests/modules/fk_chain_test.cpp
-#include "modules/codes.h"
 #include "modules/registry.h"
 #include "modules/steps.h"
 

@@ -51,7 +51,10 @@ void build_chain(Builder& b, const std::vector<NodeId>& chain, NodeId handle) {
   b.set({solver, ik::kGoalOffset}, math::inverse(rest(b, handle)) * position(b, chain.back()));
   b.set({solver, ik::kTwist}, b.with().number("twist"));
   b.set({solver, ik::kIterations}, b.with().number("iterations"));
-  if (const NodeId pole = space_from(b, "pole", {}); pole.valid()) {
+  NodeId pole = space_from(b, "pole", {});
+  if (b.failed()) return;
+  if (!pole.valid()) pole = straight_chain_pole(b, chain, b.with().text("bend"));
+  if (pole.valid()) {
     b.set({solver, ik::kHasPole}, 1.0);
     b.set({solver, ik::kPole}, rest(b, pole));
     b.connect(world_of(pole), {solver, ik::kPole});

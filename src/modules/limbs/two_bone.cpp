@@ -16,6 +16,10 @@ constexpr double kBent = 0.0872;  // sine of 5 degrees
 constexpr double kExactlyStraight =
     1e-7;  // deviation in lengths of the limb below which any plane leaves it unmoved
 
+/// Deviations from the line, summed over the joints and in lengths of the chain, below which the
+/// chain solver takes it for straight; half of eval's, which sees rounded places.
+constexpr double kStraightChain = 5e-7;
+
 Vec3 perpendicular_part(Vec3 v, Vec3 unit) { return v - unit * math::dot(v, unit); }
 
 /// Where a straight limb bends to: the parameter's side, made perpendicular to the limb.
@@ -90,6 +94,20 @@ NodeId pole_anchor(Builder& b, const TwoBone& limb) {
 }
 
 }  // namespace
+
+NodeId straight_chain_pole(Builder& b, const std::vector<NodeId>& chain, const std::string& bend) {
+  const Vec3 first = position(b, chain.front());
+  const Vec3 span = position(b, chain.back()) - first;
+  const Vec3 direction = math::normalised(span);
+  double deviation = 0;
+  for (NodeId joint : chain) {
+    deviation += math::length(perpendicular_part(position(b, joint) - first, direction));
+  }
+  const double length = math::length(span);
+  if (chain.size() < 3 || !(deviation <= kStraightChain * length)) return {};
+  return pole_anchor(b, {chain.front(), chain[chain.size() / 2], chain.back(),
+                         wanted_bend(b, bend, direction), length});
+}
 
 NodeId make_two_bone(Builder& b, const TwoBone& limb, NodeId goal, NodeId pole, double twist) {
   namespace ik2 = scene::ik2;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A chain of three joints as the two-bone solver sees it: shared by ik_handle and ik_fk_limb.
+// A chain of three joints as the two-bone solver sees it: shared by ik_handle and ik_fk_limb; and
+// where a straight chain bends to.
 // Test: tests/modules/ik_test.cpp
 #pragma once
 
@@ -30,5 +31,10 @@ math::Vec3 pole_position(const Builder& b, const TwoBone& limb, double distance)
 /// its rest pose with what it hangs on.
 NodeId make_two_bone(Builder& b, const TwoBone& limb, NodeId goal, NodeId pole,
                      double twist_degrees);
+
+/// Where an exactly straight chain of three or more joints bends to when it has no pole: a
+/// transform on the side that `bend` names. Invalid for a chain that is bent at rest, which keeps
+/// its bend.
+NodeId straight_chain_pole(Builder& b, const std::vector<NodeId>& chain, const std::string& bend);
 
 }  // namespace rigc::modules

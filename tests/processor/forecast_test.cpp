@@ -37,13 +37,14 @@ std::string hint(const std::string& plug, const std::string& later) {
 }
 
 const std::string kControl = "      - {command: control, with: {}}\n";
+const std::string kControl2 = "      - {command: control, id: second}\n";
 const std::string kLater =
     "made by \"control\" on joint \"b\", which runs later, test.yaml:17; "
     "give that command an earlier stage or this one a later";
 
 }  // namespace
 
-TEST_CASE("traversal forecast: a later command is named with its line") {
+TEST_CASE("processor forecast: a later command is named with its line") {
   CHECK(hint("arm.lower/control@translate.x", kControl) == kLater);
   CHECK(hint("arm/control@translate.x", kControl) == kLater);
   CHECK(hint("arm.lower/*@translate.x", kControl) == kLater);
@@ -51,18 +52,26 @@ TEST_CASE("traversal forecast: a later command is named with its line") {
   CHECK(hint("arm[END]/control@translate.x", kControl) == kLater);
 }
 
-TEST_CASE("traversal forecast: a command that makes nodes for other joints is found by them") {
+TEST_CASE("processor forecast: a command that makes nodes for other joints is found by them") {
   const std::string chain = "      - {command: fk_chain, with: {joints: [arm.upper, .]}}\n";
   CHECK(hint("./fk_chain@rotate.x", chain).find("made by \"fk_chain\" on joint \"b\"") == 0);
 }
 
-TEST_CASE("traversal forecast: a label that a later command gives is found") {
+TEST_CASE("processor forecast: a label that a later command gives is found") {
   const std::string tip = "      - {command: transform, id: tip, with: {local: arm, label: tip}}\n";
   CHECK(hint("arm.tip@translate.x", tip).find("made by \"tip\" on joint \"b\"") == 0);
   CHECK(hint("arm.tip/transform@translate.x", tip).find("made by \"tip\" on joint \"b\"") == 0);
 }
 
-TEST_CASE("traversal forecast: nothing is promised that will not come") {
+TEST_CASE("processor forecast: a command that is switched off is named too") {
+  CHECK(hint("arm.lower/control@translate.x", "      - {command: control, on: off}\n") ==
+        "made by \"control\" on joint \"b\", which is switched off, test.yaml:17");
+  CHECK(hint("arm/control@translate.x", "      - {command: control, on: off}\n" + kControl2) ==
+        "made by \"second\" on joint \"b\", which runs later, test.yaml:18; "
+        "give that command an earlier stage or this one a later");
+}
+
+TEST_CASE("processor forecast: nothing is promised that will not come") {
   CHECK(hint("arm.upper/control@translate.x", kControl) == "nothing has been made there yet");
   CHECK(hint("./control@translate.x", kControl) == "nothing has been made there yet");
   CHECK(hint("arm.lower/control#other@translate.x", kControl) == "nothing has been made there yet");
