@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Rules of the weighted constraints and of aim. Test: tests/eval/compile_test.cpp
+#include <fmt/format.h>
 #include "eval/codes.h"
 #include "eval/rules_of_kinds.h"
 #include "eval/values.h"
-#include <fmt/format.h>
 
 namespace rigc::eval {
 
@@ -63,7 +63,8 @@ std::optional<Operand> constraint_emit(Emitter& emitter, const scene::Scene& sce
                     fmt::format("{} targets, {} weights and {} offsets", count, weights, offsets),
                     diagnostics);
   }
-  std::vector<double> data{static_cast<double>(count)};
+  const bool point = scene[node].kind == scene::Kind::point_constraint;
+  std::vector<double> data{static_cast<double>(count), point ? 1.0 : 0.0};
   append(data, scene, node, constraint::kOffsets);
   return emitter.emit(Op::constraint, arguments, data, 10, node.index);
 }

@@ -183,13 +183,19 @@ NodeId make_constraint(Builder& b, Kind kind, NodeId driven, const std::vector<T
   const NodeId node =
       b.make({.kind = kind, .role = role, .joint = owner, .parent = {}, .suffix = role});
   const Affine driven_rest = rest(b, driven);
+  const NodeId parent = b.scene()[driven].parent;
+  const Affine to_parent = parent.valid() ? math::inverse(rest(b, parent)) : Affine{};
+  const auto offset_from = [&](const Affine& target) {
+    if (kind != Kind::point_constraint) return math::inverse(target) * driven_rest;
+    return math::translation(to_parent * driven_rest.origin - to_parent * target.origin);
+  };
   b.connect({driven, transform::kParent}, {node, constraint::kParent});
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const auto element = static_cast<std::int32_t>(i);
     b.set({node, constraint::kTargets, element}, targets[i].rest);
     b.set({node, constraint::kWeights, element}, weights.empty() ? 1.0 : weights[i]);
     b.set({node, constraint::kOffsets, element},
-          maintain ? math::inverse(targets[i].rest) * driven_rest : Affine{});
+          maintain ? offset_from(targets[i].rest) : Affine{});
     b.connect(targets[i].world, {node, constraint::kTargets, element});
   }
   return node;

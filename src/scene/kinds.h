@@ -96,7 +96,8 @@ inline constexpr std::uint16_t kTargets = 1;  ///< matrix[], input: worlds of th
 inline constexpr std::uint16_t kWeights =
     2;  ///< number[], input, one each; used relative to their sum (all 0: equal)
 inline constexpr std::uint16_t kOffsets =
-    3;  ///< matrix[], data: rest(target)^-1 * rest(driven) where the offset is kept
+    3;  ///< matrix[], data: rest(target)^-1 * rest(driven) where the offset is kept; of a point
+        ///< constraint a translation in the parent's space: targets may turn without moving it
 inline constexpr std::uint16_t kTranslate = 4;  ///< vec3, output, parent space
 inline constexpr std::uint16_t kRotation = 5;   ///< quat, output, parent space
 inline constexpr std::uint16_t kScale = 6;      ///< vec3, output

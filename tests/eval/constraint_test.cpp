@@ -18,6 +18,7 @@ struct Setup {
   Affine parent;
   std::vector<Affine> targets, offsets;
   Numbers weights;
+  bool point = false;
 
   Arguments arguments() const {
     Arguments a{parent};
@@ -28,7 +29,7 @@ struct Setup {
     return a;
   }
   Numbers data() const {
-    Numbers d{static_cast<double>(targets.size())};
+    Numbers d{static_cast<double>(targets.size()), point ? 1.0 : 0.0};
     for (const Affine& offset : offsets) {
       const Numbers n = eval::numbers_of(offset);
       d.insert(d.end(), n.begin(), n.end());
@@ -152,6 +153,25 @@ TEST_CASE("eval constraint: two rotations blend by slerp, the shorter way") {
   s.weights = {0.75, 0.25};
   const math::Quat want = math::axis_angle({0, 1, 0}, math::radians(175));
   CHECK(test::distance(test::quat_of(s.run(), 3), want) < 1e-14);
+}
+
+TEST_CASE(
+    "eval constraint: a point constraint puts its offset beside the target, in the parent's "
+    "space") {
+  Random random(6);
+  for (int i = 0; i < 500; ++i) {
+    Setup s = random_setup(random, 2);
+    s.point = true;
+    const double sum = s.weights[0] + s.weights[1];
+    math::Vec3 expected;
+    for (std::size_t t = 0; t < 2; ++t) {
+      const twin::M to_parent = twin::inverse(twin::from(s.parent));
+      const twin::M at = twin::times(to_parent, twin::from(math::translation(s.targets[t].origin)));
+      expected = expected + (twin::column(at, 3) + s.offsets[t].origin) * (s.weights[t] / sum);
+    }
+    const double size = 1 + math::length(expected);
+    CHECK(math::length(test::vec3_of(s.run(), 0) - expected) < 1e-9 * size);
+  }
 }
 
 TEST_CASE("eval constraint: degenerate input leaves finite numbers") {

@@ -54,10 +54,8 @@ TEST_CASE("modules constraints: point follows the weighted mean and keeps its di
   CHECK(test::rest_error(rig) < 1e-12);
   test::Pose pose(rig);
   pose.translate(kA, {0, 1, 0}).translate(kB, {0, 0, 4}).rotate(kA, {90, 0, 0});
-  // Positions count, and with the kept offset also the rotation of what it is kept in.
-  test::Pose still(rig);
-  still.translate(kA, {0, 1, 0}).translate(kB, {0, 0, 4});
-  CHECK(test::distance(still.position(kC), kRest + Vec3{0, 0.75, 1}) < 1e-12);
+  // Positions alone count: that a target turns moves nothing.
+  CHECK(test::distance(pose.position(kC), kRest + Vec3{0, 0.75, 1}) < 1e-12);
   CHECK(same(axes(pose.world(kC)), turned({0, 30, 0})));
 }
 

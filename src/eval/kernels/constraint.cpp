@@ -21,6 +21,15 @@ double weight_of(const Call& call, std::uint32_t target, int lane) {
   return weight > 0 ? weight : 0;
 }
 
+/// A target in the parent's space: its offset hung under it or, for point constraints, put beside
+/// it.
+math::Trs placed_at(const Call& call, const math::Affine& to_parent, std::uint32_t i, int lane) {
+  const math::Affine target = read_affine(call.in(1 + 2 * i), lane);
+  const math::Affine offset = offset_at(call.data + 2 + 12 * i);
+  if (call.data[1] != 0) return {to_parent * target.origin + offset.origin, {}, {1, 1, 1}};
+  return math::decompose(to_parent * target * offset);
+}
+
 math::Trs blend(const Call& call, std::uint32_t count, int lane) {
   const math::Affine to_parent = into(read_affine(call.in(0), lane));
   double sum = 0;
@@ -30,9 +39,7 @@ math::Trs blend(const Call& call, std::uint32_t count, int lane) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const double t = weights.add(sum > 0 ? weight_of(call, i, lane) : 1);
     if (t == 0) continue;
-    const math::Affine target =
-        read_affine(call.in(1 + 2 * i), lane) * offset_at(call.data + 1 + 12 * i);
-    const math::Trs placed = math::decompose(to_parent * target);
+    const math::Trs placed = placed_at(call, to_parent, i, lane);
     if (t == 1) {
       mean = placed;
       continue;

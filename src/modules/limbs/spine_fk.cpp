@@ -14,7 +14,7 @@ namespace {
 /// the hips bends the spine at its base and stretches nothing.
 void carry_base(Builder& b, NodeId zero, NodeId hips) {
   const NodeId node =
-      make_constraint(b, scene::Kind::point_constraint, zero, {target(b, hips)}, {}, true, "space");
+      make_constraint(b, scene::Kind::parent_constraint, zero, {target(b, hips)}, {}, true, "space");
   b.connect({node, scene::constraint::kTranslate}, {zero, scene::transform::kTranslate});
 }
 
