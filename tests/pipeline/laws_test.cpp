@@ -9,7 +9,9 @@
 #include <sstream>
 
 #include "base/files.h"
+#include "gltf/rig.h"
 #include "pipeline/build.h"
+#include "support/random_template.h"
 
 namespace rigc {
 namespace {
@@ -109,6 +111,30 @@ TEST_CASE("pipeline laws: a mutated template builds, or gives diagnostics and wr
   }
   CHECK(built > 20);
   CHECK(refused > 100);
+}
+
+TEST_CASE(
+    "pipeline laws: random templates give the same bytes twice, and a rig reads back as it was "
+    "built") {
+  const std::string folder = std::string(RIGC_TEST_OUT);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    CAPTURE(seed);
+    const std::string path = folder + "/random.yaml";
+    write_text(path, test::random_template(seed));
+    const std::string first = folder + "/random_first.glb", second = folder + "/random_second.glb";
+    Diagnostics diagnostics;
+    const auto built = build(path, first, diagnostics);
+    REQUIRE_MESSAGE(built, render(diagnostics, false));
+    REQUIRE(build(path, second, diagnostics));
+    CHECK(text_of(first) == text_of(second));
+
+    const auto file = gltf::open(first, diagnostics);
+    REQUIRE(file);
+    const auto rigs = gltf::read_rigs(*file, diagnostics);
+    REQUIRE_MESSAGE(rigs, render(diagnostics, false));
+    REQUIRE(rigs->size() == 1);
+    CHECK(rigs->front().scene.dump() == built->rig.scene.dump());
+  }
 }
 
 }  // namespace rigc
