@@ -5,9 +5,12 @@ target_compile_features(rigc_flags INTERFACE cxx_std_20)
 target_compile_options(rigc_flags INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
   -Wnon-virtual-dtor -Wimplicit-fallthrough -ffp-contract=off -fno-fast-math
   $<$<BOOL:${RIGC_WERROR}>:-Werror>)
-if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # What gcc 12 concludes from inlining std::string, std::optional and std::variant is often false (its bugs
-  # 105329, 105651, 105562). Clang's sanitizers watch for the real ones.
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # gcc 12 drops the rounding of double -> float -> double where it vectorises straight-line code:
+  # double(float(p.x)), double(float(p.y)) in one expression keep all their digits. Loops are not affected.
+  target_compile_options(rigc_flags INTERFACE -fno-tree-slp-vectorize)
+  # What it concludes from inlining std::string, std::optional and std::variant is often false (its bugs 105329,
+  # 105651, 105562). Clang's sanitizers watch for the real ones.
   target_compile_options(rigc_flags INTERFACE -Wno-array-bounds -Wno-free-nonheap-object -Wno-maybe-uninitialized
     -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
 endif()

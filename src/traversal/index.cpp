@@ -40,7 +40,7 @@ void remove_from(Map& lists, const Key& key, NodeId node) {
 void Index::added(const scene::Scene& scene, NodeId id) {
   const scene::Node& node = scene[id];
   const auto& [global, local, label] = node.ids;
-  if (node.kind == scene::Kind::joint) joints_[key_of(global, local)].push_back(id);
+  if (node.is_skeleton()) joints_[key_of(global, local)].push_back(id);
   groups_[key_of(global, local)].push_back(id);
   if (!label.empty()) labels_[key_of(global, local, label)].push_back(id);
   ++names_[global][local][label];
@@ -55,7 +55,7 @@ void Index::added(const scene::Scene& scene, NodeId id) {
 void Index::removing(const scene::Scene& scene, NodeId id) {
   const scene::Node& node = scene[id];
   const auto& [global, local, label] = node.ids;
-  if (node.kind == scene::Kind::joint) remove_from(joints_, key_of(global, local), id);
+  if (node.is_skeleton()) remove_from(joints_, key_of(global, local), id);
   remove_from(groups_, key_of(global, local), id);
   if (!label.empty()) remove_from(labels_, key_of(global, local, label), id);
   auto& in_global = names_[global];

@@ -21,8 +21,8 @@ class Index final : public scene::Observer {
   void added(const scene::Scene& scene, NodeId node) override;
   void removing(const scene::Scene& scene, NodeId node) override;
 
-  /// Joints of a local group: the skeleton's, parents first in document order, then those that
-  /// commands made.
+  /// Joints of a local group, of the skeleton alone (START and END stay what they are when a
+  /// command makes a joint): parents first, in document order.
   const std::vector<NodeId>& joints(std::string_view global, std::string_view local) const;
   /// Everything of a local group in the order made, skeleton joints first.
   const std::vector<NodeId>& group(std::string_view global, std::string_view local) const;

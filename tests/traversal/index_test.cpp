@@ -70,7 +70,7 @@ void check_group(const Watched& w, const std::string& local) {
   const auto in_group = [&](const scene::Node& n) { return n.ids.local == local; };
   CHECK(w.index.group("hero", local) == scan(w.scene, in_group));
   CHECK(w.index.joints("hero", local) ==
-        scan(w.scene, [&](const scene::Node& n) { return in_group(n) && n.kind == Kind::joint; }));
+        scan(w.scene, [&](const scene::Node& n) { return in_group(n) && n.is_skeleton(); }));
   std::set<std::string> labels;
   for (NodeId id : w.index.group("hero", local)) labels.insert(w.scene[id].ids.label);
   labels.erase("");
@@ -130,7 +130,7 @@ TEST_CASE("traversal index: skeleton joints and made nodes are told apart") {
   CHECK(w.index.joint({1, 0}) == elbow);
   CHECK(w.index.joint({2, 0}) == wrist);
   CHECK_FALSE(w.index.joint({2, 1}).valid());
-  CHECK(w.index.joints("hero", "arm_l") == std::vector{elbow, wrist, twist});
+  CHECK(w.index.joints("hero", "arm_l") == std::vector{elbow, wrist});
   CHECK(w.index.group("hero", "arm_l") == std::vector{elbow, wrist, control, twist});
   CHECK(w.index.labelled("hero", "arm_l", "wrist") == std::vector{wrist, control});
   CHECK(w.index.made_for({2, 0}) == std::vector{control, twist});

@@ -138,9 +138,12 @@ TEST_CASE("traversal resolve: groups and labels name joints") {
   CHECK(hero.names("hero:arm_l.wrist") == "wrist_l");
 }
 
-TEST_CASE("traversal resolve: joints that commands made come after the skeleton's") {
+TEST_CASE("traversal resolve: joints that commands made are found by label, module and kind") {
   Hero hero;
-  CHECK(hero.names("arm_l") == "shoulder_l elbow_l wrist_l wrist_l_joint");
+  CHECK(hero.names("arm_l") == "shoulder_l elbow_l wrist_l");
+  CHECK(hero.names("arm_l[END]") == "wrist_l");
+  CHECK(hero.names("arm_l/joint") == "wrist_l_joint");
+  CHECK(hero.names("arm_l::joint") == "shoulder_l elbow_l wrist_l wrist_l_joint");
   CHECK(hero.names("arm_l.twist") == "wrist_l_joint");
   CHECK(hero.names("arm_l.palm") == "wrist_l_transform");
 }
