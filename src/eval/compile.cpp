@@ -7,13 +7,13 @@
 #include <cassert>
 #include <unordered_map>
 
+#include <fmt/format.h>
 #include "eval/codes.h"
 #include "eval/cycle.h"
 #include "eval/emitter.h"
 #include "eval/program.h"
 #include "eval/rules.h"
 #include "eval/values.h"
-#include <fmt/format.h>
 
 namespace rigc::eval {
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
 #include "base/text.h"
 #include "eval/codes.h"
 #include "eval/rules.h"
-#include <fmt/format.h>
 
 namespace rigc::eval {
 

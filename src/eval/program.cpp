@@ -2,9 +2,9 @@
 // A program as text. Test: tests/eval/program_test.cpp
 #include "eval/program.h"
 
+#include <fmt/format.h>
 #include "base/text.h"
 #include "eval/kernels/table.h"
-#include <fmt/format.h>
 
 namespace rigc::eval {
 

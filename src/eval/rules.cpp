@@ -4,9 +4,9 @@
 
 #include <array>
 
+#include <fmt/format.h>
 #include "base/text.h"
 #include "eval/rules_of_kinds.h"
-#include <fmt/format.h>
 
 namespace rigc::eval {
 

@@ -2,9 +2,9 @@
 // Rules of the IK solvers. Test: tests/eval/compile_test.cpp
 #include <algorithm>
 
+#include <fmt/format.h>
 #include "eval/kernels/chain_steps.h"
 #include "eval/rules_of_kinds.h"
-#include <fmt/format.h>
 
 namespace rigc::eval {
 

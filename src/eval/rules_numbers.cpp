@@ -2,8 +2,8 @@
 // Rules of expressions and remaps. Test: tests/eval/compile_test.cpp, tests/eval/remap_test.cpp
 #include <cmath>
 
-#include "eval/rules_of_kinds.h"
 #include <fmt/format.h>
+#include "eval/rules_of_kinds.h"
 #include "scene/formula.h"
 
 namespace rigc::eval {

@@ -4,9 +4,9 @@
 // Test: tests/scene/dump_test.cpp
 #include <algorithm>
 
+#include <fmt/format.h>
 #include "base/json.h"
 #include "base/text.h"
-#include <fmt/format.h>
 #include "scene/scene.h"
 #include "scene/storage.h"
 

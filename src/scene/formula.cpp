@@ -9,8 +9,8 @@
 #include <cmath>
 #include <string>
 
-#include "base/text.h"
 #include <fmt/format.h>
+#include "base/text.h"
 #include "scene/codes.h"
 
 namespace rigc::scene {

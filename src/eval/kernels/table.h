@@ -18,7 +18,8 @@ enum class Op : std::uint8_t {
   from_euler,  ///< degrees -> rotation
   to_euler,    ///< rotation -> degrees
   // Solvers; scene/kinds.h says what they mean.
-  constraint,  ///< parent, (target, weight)...; data: count, whether it is a point constraint, offsets -> translate, rotation, scale
+  constraint,  ///< parent, (target, weight)...; data: count, whether it is a point constraint,
+               ///< offsets -> translate, rotation, scale
   aim,  ///< parent, position, up_target, up_vector, (target, weight)...; data: count, mode, offset
         ///< -> rotation
   ik_two_bone,  ///< base ... middle_scale; data: goal offset, rotation offsets, normal -> two

@@ -13,8 +13,8 @@ namespace {
 /// The spine's first zero moves with the hips but turns with what both hang under, so that turning
 /// the hips bends the spine at its base and stretches nothing.
 void carry_base(Builder& b, NodeId zero, NodeId hips) {
-  const NodeId node =
-      make_constraint(b, scene::Kind::parent_constraint, zero, {target(b, hips)}, {}, true, "space");
+  const NodeId node = make_constraint(b, scene::Kind::parent_constraint, zero, {target(b, hips)},
+                                      {}, true, "space");
   b.connect({node, scene::constraint::kTranslate}, {zero, scene::transform::kTranslate});
 }
 
