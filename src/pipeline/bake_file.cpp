@@ -52,10 +52,11 @@ std::optional<bake::Options> read_options(const BakeRequest& request, Diagnostic
   const auto fps = request.fps == "source" ? std::optional<double>(0) : parse_number(request.fps);
   const bool positive = fps && (*fps > 0 || request.fps == "source") && *fps <= 10000;
   if (!positive || (request.start && request.end && *request.start > *request.end)) {
-    diagnostics.report(codes::kBadRange, Place(request.file),
-                       positive ? "--start lies after --end"
-                                : fmt::format("\"{}\" is no frame rate", printable(request.fps)),
-                       "--fps takes a number above 0, or source for the keys' own times");
+    diagnostics.report(
+        codes::kBadRange, Place(request.file),
+        positive ? "--start lies after --end"
+                 : fmt::format("\"{}\" is no frame rate", printable(request.fps)),
+        positive ? "" : "--fps takes a number above 0, or source for the keys' own times");
     return std::nullopt;
   }
   options.fps = *fps;

@@ -102,6 +102,11 @@ std::string corpus_file(const std::string& name) {
   return {};
 }
 
+void made_from(const std::string& path, const std::string& model) {
+  const bool beside = folder_of(path) == folder_of(model);
+  std::ofstream(path + ".model") << (beside ? model.substr(model.rfind('/') + 1) : model) << "\n";
+}
+
 math::Affine local_of(const ordered_json& node) {
   if (node.contains("matrix")) {
     const auto m = node["matrix"].get<std::vector<double>>();

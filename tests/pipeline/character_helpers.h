@@ -25,6 +25,10 @@ void save_glb(const Character& character, const std::string& path);
 /// Path of a corpus file; empty (with a message) where the corpus is absent.
 std::string corpus_file(const std::string& name);
 
+/// Notes beside a written file which model it was made from, for the validator run of .ci/run: a
+/// path, or the name of a file beside it.
+void made_from(const std::string& path, const std::string& model);
+
 math::Affine local_of(const nlohmann::ordered_json& node);
 void set_local(nlohmann::ordered_json& node, const math::Affine& local);
 std::vector<int> parents_of(const nlohmann::ordered_json& json);

@@ -24,6 +24,7 @@ using scene::NodeId;
 /// A built rig, and where its space lies in the world.
 struct Rigged {
   std::string path;
+  std::string model;
   std::unique_ptr<gltf::Rig> rig;
   Affine space;
 
@@ -62,6 +63,8 @@ Rigged build_on(const std::string& model, const std::string& name) {
   request.model = model;
   Rigged rigged;
   rigged.path = test_out(name + "_rig.glb");
+  rigged.model = model;
+  test::made_from(rigged.path, model);
   const auto built = pipeline::build(request, rigged.path, diagnostics);
   REQUIRE_MESSAGE(built, render(diagnostics, false));
   const auto file = gltf::open(rigged.path, diagnostics);
@@ -140,6 +143,8 @@ std::string bake_keys(const Rigged& rigged, const std::vector<anim::Channel>& ch
   const auto done = pipeline::bake_file(request, baked, diagnostics);
   REQUIRE_MESSAGE(done, render(diagnostics, false));
   CHECK_FALSE(done->clips.front().passed_through);
+  test::made_from(keyed, rigged.model);
+  test::made_from(baked, rigged.model);
   return baked;
 }
 

@@ -151,8 +151,11 @@ TEST_CASE("templates place: equal rotations of mirrored joints move the world in
       if (i % 2 == 0) limb += ", rotate: " + text(random.vector(170));
       limb += "}\n";
     }
-    limb += "parts: [{template: end, as: end, attach: d, at: " + text(random.vector(1)) +
-            ", rotate: " + text(random.vector(90)) + ", size: 0.5}]\n";
+    const Vec3 end_at =
+        random.vector(1);  // one draw a statement: compilers order operands as they like
+    const Vec3 end_rotate = random.vector(90);
+    limb += "parts: [{template: end, as: end, attach: d, at: " + text(end_at) +
+            ", rotate: " + text(end_rotate) + ", size: 0.5}]\n";
     folder.write("limb.yaml", with_head(limb, "limb"));
     folder.write("end.yaml",
                  with_head("joints:\n  - {name: e, translate: [1, 2, 3], rotate: [5, 6, 7]}\n"
