@@ -30,6 +30,7 @@ struct Channel {
   Path path = Path::translation;
   std::string attribute;    ///< of Path::attribute: name in the node's extras
   int source_channel = -1;  ///< index of the channel in the file's animation
+  bool baked = false;       ///< made by a bake: rigc's own, which the next bake makes again
   Curve curve;
 };
 

@@ -107,6 +107,7 @@ class ClipReader {
     const auto index = static_cast<std::size_t>(value["sampler"].integer().value_or(0));
     const SlimSampler& sampler = animation.samplers[index];
     const auto& output = slim_.accessors[static_cast<std::size_t>(sampler.output)];
+    channel.baked = value["extras"]["rigc"].string() == kBakedMark;
     anim::Curve& curve = channel.curve;
     curve.interpolation = sampler.interpolation;
     curve.width = width_of(channel.path);

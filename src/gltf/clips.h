@@ -30,6 +30,9 @@ std::optional<ClipFile> read_clips(const File& file, Diagnostics& diagnostics);
 void write_clip(Patch& patch, const File& file, const anim::Clip& clip,
                 const std::vector<int>& dropped_channels);
 
+/// `extras.rigc` of a channel that a bake made.
+inline constexpr std::string_view kBakedMark = "baked";
+
 /// A step of a JSON pointer with `~` and `/` escaped (RFC 6901), and back.
 std::string pointer_escaped(std::string_view step);
 std::string pointer_unescaped(std::string_view step);

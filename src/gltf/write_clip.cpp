@@ -107,7 +107,11 @@ std::string channel_text(const anim::Channel& channel, std::size_t sampler) {
   } else {
     writer.member("node", channel.node).member("path", path_name(channel.path));
   }
-  writer.end_object().end_object();
+  writer.end_object();
+  if (channel.baked) {
+    writer.key("extras").begin_object().member("rigc", kBakedMark).end_object();
+  }
+  writer.end_object();
   return writer.take();
 }
 

@@ -134,11 +134,13 @@ std::optional<BakedClip> bake_clip(const BakeRequest& request, bake::Options opt
   std::size_t foreign = 0;
   for (const anim::Channel& channel : clip.channels) {
     const bool on_driven = driven.count(channel.node) != 0;
-    foreign += on_driven ? 1 : 0;
+    foreign += on_driven && !channel.baked ? 1 : 0;
     const bool on_control = controls.count(channel.node) != 0 && !request.keep_rig;
     if (on_driven || on_control) dropped.push_back(channel.source_channel);
   }
   report_clip(request, clip, baked.report, foreign, diagnostics);
+  // Where the rig stays, the next bake or update must know what it may make again.
+  for (anim::Channel& channel : out.channels) channel.baked = request.keep_rig;
   gltf::write_clip(patch, file, out, dropped);
   return baked;
 }

@@ -148,6 +148,28 @@ TEST_CASE("pipeline codes: a clip that moves controls and what they drive") {
   CHECK(numbers(diagnostics) == std::vector<int>{756});
 }
 
+TEST_CASE(
+    "pipeline codes: what a bake put on the joints of a kept rig is rigc's own to the next bake") {
+  const auto move = [](const gltf::Rig& rig) {
+    return std::vector<anim::Channel>{
+        constant(node_in_role(rig, "world"), anim::Path::translation, {1, 0, 0})};
+  };
+  const Diagnostics first = bake_with("prop.yaml", "codes_own", move);
+  CHECK(numbers(first).empty());
+  pipeline::BakeRequest request;
+  request.file = test_out("codes_own_keyed.glb");
+  request.keep_rig = true;
+  const std::string kept = test_out("codes_own_kept.glb"), again = test_out("codes_own_again.glb");
+  Diagnostics diagnostics;
+  REQUIRE(pipeline::bake_file(request, kept, diagnostics));
+  request.file = kept;
+  REQUIRE(pipeline::bake_file(request, again, diagnostics));
+  CHECK(numbers(diagnostics).empty());
+  const auto worlds = test::play(kept, "test", 0), same = test::play(again, "test", 0);
+  REQUIRE(worlds.size() == same.size());
+  for (std::size_t i = 0; i < worlds.size(); ++i) CHECK(worlds[i] == same[i]);
+}
+
 TEST_CASE("pipeline codes: a joint under an unevenly scaled node that somebody put in is sheared") {
   const auto turn = [](const gltf::Rig& rig) {
     return std::vector<anim::Channel>{constant(node_in_role(rig, "fk", 1), anim::Path::rotation,
