@@ -54,11 +54,16 @@ std::string mutated(std::string text, std::mt19937_64& random) {
         if (!line.empty()) line[below(line.size())] = static_cast<char>(below(256));
         break;
       case 4:
-        if (!line.empty()) line.erase(below(line.size()), 1 + below(4));
+        if (!line.empty()) {
+          const std::size_t from = below(line.size());  // one draw a statement
+          line.erase(from, 1 + below(4));
+        }
         break;
-      case 5:
-        line.insert(below(line.size() + 1), std::string(1, "[]{}:,-#&*!|>'\"%@`.\t/?0"[below(23)]));
+      case 5: {
+        const std::size_t where = below(line.size() + 1);
+        line.insert(where, std::string(1, "[]{}:,-#&*!|>'\"%@`.\t/?0"[below(23)]));
         break;
+      }
       default: {
         const std::string& other = lines[below(lines.size())];
         const std::size_t from = below(other.size() + 1);

@@ -67,7 +67,8 @@ class Generator {
       const std::size_t count = 3 + random_.below(options_.longest - 2);
       std::string above = joints_[parent].name;
       Vec3 at = joints_[parent].at + random_.vector(0.4);
-      const Vec3 step = math::normalised(random_.vector(1)) * random_.number(0.1, 0.4);
+      const Vec3 direction = math::normalised(random_.vector(1));  // one draw a statement
+      const Vec3 step = direction * random_.number(0.1, 0.4);
       for (std::size_t i = 0; i < count; ++i) {
         chain.joints.push_back(joints_.size());
         const std::string label = fmt::format("j{}", i);
@@ -83,18 +84,21 @@ class Generator {
 
   void drive(Chain& chain) {
     Joint& first = joint(chain, 0);
+    std::string look;
     switch (random_.below(5)) {
       case 0:
         chain.drive = Drive::fk;
+        look = shape();
         first.commands.push_back(
             fmt::format("{{command: fk_chain, with: {{joints: \"{}[*]\", shape: {}, orient: {}}}}}",
-                        chain.local, shape(), orient()));
+                        chain.local, look, orient()));
         break;
       case 1:
         chain.drive = Drive::controls;
         for (std::size_t i = 0; i < chain.joints.size(); ++i) {
+          look = shape();
           joint(chain, i).commands.push_back(
-              fmt::format("{{command: control, with: {{shape: {}, translate: {}}}}}", shape(),
+              fmt::format("{{command: control, with: {{shape: {}, translate: {}}}}}", look,
                           random_.chance(0.5) ? "on" : "off"));
         }
         break;
@@ -127,11 +131,13 @@ class Generator {
   /// A command that fits wherever it stands; `n` makes its id unique.
   void add_command(std::size_t n) {
     Joint& at = any_joint();
+    std::string first;  // of two draws in one text
     switch (random_.below(9)) {
       case 0:
+        first = list_of(random_.vector(0.2));
         at.commands.push_back(
             fmt::format("{{command: transform, id: t{}, with: {{offset: {}, orient: {}}}}}", n,
-                        list_of(random_.vector(0.2)), orient()));
+                        first, orient()));
         break;
       case 1:
         at.commands.push_back(
@@ -145,18 +151,20 @@ class Generator {
             n, random_.number(-5, 5)));
         break;
       case 3:
+        first = "xyz"[random_.below(3)];
         at.commands.push_back(fmt::format(
             "{{command: set, id: s{}, with: {{plug: \"base/root.world@translate.{}\", value: "
             "{:.3f}}}}}",
-            n, "xyz"[random_.below(3)], random_.number(-1, 1)));
+            n, first, random_.number(-1, 1)));
         break;
       case 4:
         add_constrained(at, n);
         break;
       case 5:
+        first = shape();
         at.commands.push_back(fmt::format(
-            "{{command: control, id: c{}, with: {{drive: off, shape: {}, orient: {}}}}}", n,
-            shape(), orient()));
+            "{{command: control, id: c{}, with: {{drive: off, shape: {}, orient: {}}}}}", n, first,
+            orient()));
         break;
       case 6:  // finds nothing: is skipped, or counts as left out
         at.commands.push_back(
@@ -184,10 +192,13 @@ class Generator {
                                      "parent_constraint", "aim_constraint"});
     at.commands.push_back(fmt::format("{{command: transform, id: held{}, with: {{offset: {}}}}}", n,
                                       list_of(random_.vector(0.3))));
+    const std::string first = target();
+    const std::string second = target();
+    const double weight = random_.number(0, 1);
     at.commands.push_back(fmt::format(
         "{{command: {0}, id: k{1}, with: {{driven: \"./transform#held{1}\", targets: [{2}, {3}], "
         "weights: [{4:.2f}, {5:.2f}]}}}}",
-        module, n, target(), target(), random_.number(0, 1), random_.number(0, 1)));
+        module, n, first, second, weight, random_.number(0, 1)));
   }
 
   /// A transform of its own that a formula or a curve moves.
