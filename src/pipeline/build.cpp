@@ -139,6 +139,7 @@ std::optional<Prepared> prepare(const BuildRequest& request, Diagnostics& diagno
   templates::Library library(templates::template_folders(request.paths.templates), out.catalogue);
   const templates::Template* main = library.open(request.template_file, diagnostics);
   if (!main) return std::nullopt;
+  out.needs_outside = !main->needs.empty();
   told(request, "read");
   const auto expanded = templates::expand(*main, library, out.catalogue, diagnostics);
   if (!expanded) return std::nullopt;

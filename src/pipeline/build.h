@@ -41,6 +41,7 @@ struct Prepared {
   std::uint32_t rig_id = 0;  ///< number of the rig in the file
   tags::TaggedSkeleton skeleton;
   tags::Settings settings;
+  bool needs_outside = false;  ///< the template is a part: its commands name groups of an outer one
   templates::FitReport fit;
   processor::CommandList commands;
   std::size_t end = 0;  ///< how many commands run

@@ -27,6 +27,8 @@ bool check_template(const std::string& path, const Paths& paths, Diagnostics& di
   request.paths = paths;
   const auto prepared = prepare(request, diagnostics);
   if (!prepared) return false;
+  // A part can only run inside the template that has the groups it needs.
+  if (prepared->needs_outside) return true;
   processor::Processor processor(prepared->skeleton, prepared->commands, prepared->catalogue);
   return processor.run(diagnostics) && check_evaluates(processor.scene(), diagnostics);
 }

@@ -10,8 +10,8 @@
 
 namespace rigc::pipeline {
 
-/// A template is read, expanded, listed and run; a glTF file is read with its rigs and clips, and
-/// compiled.
+/// A template is read, expanded, listed and (but for parts that need groups of an outer template)
+/// run; a glTF file is read with its rigs and clips, and compiled.
 bool check(const std::string& file, const Paths& paths, Diagnostics& diagnostics);
 
 }  // namespace rigc::pipeline

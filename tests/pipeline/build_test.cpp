@@ -71,6 +71,19 @@ TEST_CASE("pipeline build: every template that comes with rigc builds, twice to 
   }
 }
 
+TEST_CASE(
+    "pipeline build: parts can be checked alone, also those that need groups of an outer "
+    "template") {
+  for (const char* part : {"arm", "leg", "spine", "neck_head", "hand", "finger"}) {
+    CAPTURE(part);
+    Diagnostics diagnostics;
+    pipeline::Paths paths;
+    paths.templates = {templates_folder()};
+    const std::string file = templates_folder() + "/parts/" + part + ".yaml";
+    CHECK_MESSAGE(pipeline::check(file, paths, diagnostics), render(diagnostics, false));
+  }
+}
+
 TEST_CASE("pipeline build: inspect --json has the form that scripts rely on") {
   const std::string out = test_out("inspect_biped.glb");
   REQUIRE(build("biped.yaml", out));
