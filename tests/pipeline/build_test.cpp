@@ -5,9 +5,6 @@
 
 #include <doctest/doctest.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "base/files.h"
 #include "pipeline/character_helpers.h"
 #include "pipeline/check.h"
@@ -18,22 +15,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string templates_folder() { return std::string(RIGC_SOURCE_DIR) + "/templates"; }
-std::string test_out(const std::string& name) { return std::string(RIGC_TEST_OUT) + "/" + name; }
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 std::optional<pipeline::Built> build(const std::string& name, const std::string& out,
                                      const std::string& model = {}) {
   Diagnostics diagnostics;
   pipeline::BuildRequest request;
-  request.template_file = templates_folder() + "/" + name;
-  request.paths.templates = {templates_folder()};
+  request.template_file = test::templates_folder() + "/" + name;
+  request.paths.templates = {test::templates_folder()};
   request.model = model;
   auto built = pipeline::build(request, out, diagnostics);
   if (!model.empty()) test::made_from(out, model);
@@ -55,17 +42,17 @@ ordered_json without_identity(ordered_json node) {
 
 TEST_CASE("pipeline build: every template that comes with rigc builds, twice to the same bytes") {
   std::vector<std::string> names = {"biped.yaml", "prop.yaml"};
-  for (const std::string& tutorial : list_folder(templates_folder() + "/tutorial")) {
+  for (const std::string& tutorial : list_folder(test::templates_folder() + "/tutorial")) {
     if (tutorial.ends_with(".yaml")) names.push_back("tutorial/" + tutorial);
   }
   CHECK(names.size() >= 10);
   for (const std::string& name : names) {
     CAPTURE(name);
-    const std::string out = test_out("template_" + stem_of(name) + ".glb");
+    const std::string out = test::test_out("template_" + stem_of(name) + ".glb");
     if (!build(name, out)) continue;
-    const std::string again = test_out("again.glb");
+    const std::string again = test::test_out("again.glb");
     build(name, again);
-    CHECK(bytes_of(out) == bytes_of(again));
+    CHECK(test::bytes_of(out) == test::bytes_of(again));
     Diagnostics diagnostics;
     CHECK_MESSAGE(pipeline::check(out, {}, diagnostics), render(diagnostics, false));
   }
@@ -78,14 +65,14 @@ TEST_CASE(
     CAPTURE(part);
     Diagnostics diagnostics;
     pipeline::Paths paths;
-    paths.templates = {templates_folder()};
-    const std::string file = templates_folder() + "/parts/" + part + ".yaml";
+    paths.templates = {test::templates_folder()};
+    const std::string file = test::templates_folder() + "/parts/" + part + ".yaml";
     CHECK_MESSAGE(pipeline::check(file, paths, diagnostics), render(diagnostics, false));
   }
 }
 
 TEST_CASE("pipeline build: inspect --json has the form that scripts rely on") {
-  const std::string out = test_out("inspect_biped.glb");
+  const std::string out = test::test_out("inspect_biped.glb");
   REQUIRE(build("biped.yaml", out));
   Diagnostics diagnostics;
   const auto text = pipeline::inspect(out, true, diagnostics);
@@ -118,7 +105,7 @@ TEST_CASE("pipeline build: inspect --json has the form that scripts rely on") {
 TEST_CASE("pipeline build: nothing of a real character is lost") {
   const std::string model = test::corpus_file("mixamo_Xbot_blender/Xbot.glb");
   if (model.empty()) return;
-  const std::string out = test_out("xbot_rig.glb");
+  const std::string out = test::test_out("xbot_rig.glb");
   REQUIRE(build("biped.yaml", out, model));
   const test::Character before = test::load_glb(model);
   const test::Character after = test::load_glb(out);
@@ -151,12 +138,13 @@ TEST_CASE("pipeline build: nothing of a real character is lost") {
 TEST_CASE("pipeline build: a skeleton that has a rig is refused and nothing is written") {
   const std::string model = test::corpus_file("mixamo_Xbot_blender/Xbot.glb");
   if (model.empty()) return;
-  const std::string once = test_out("refused_once.glb"), twice = test_out("refused_twice.glb");
+  const std::string once = test::test_out("refused_once.glb"),
+                    twice = test::test_out("refused_twice.glb");
   REQUIRE(build("biped.yaml", once, model));
   Diagnostics diagnostics;
   pipeline::BuildRequest request;
-  request.template_file = templates_folder() + "/biped.yaml";
-  request.paths.templates = {templates_folder()};
+  request.template_file = test::templates_folder() + "/biped.yaml";
+  request.paths.templates = {test::templates_folder()};
   request.model = once;
   CHECK_FALSE(pipeline::build(request, twice, diagnostics));
   REQUIRE(diagnostics.errors() == 1);

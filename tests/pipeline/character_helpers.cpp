@@ -67,11 +67,18 @@ int ancestor_of(const ordered_json& json) {
 
 }  // namespace
 
-Character load_glb(const std::string& path) {
+std::string test_out(const std::string& name) { return std::string(RIGC_TEST_OUT) + "/" + name; }
+std::string templates_folder() { return std::string(RIGC_SOURCE_DIR) + "/templates"; }
+
+std::string bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::stringstream text;
   text << file.rdbuf();
-  const std::string bytes = text.str();
+  return text.str();
+}
+
+Character load_glb(const std::string& path) {
+  const std::string bytes = bytes_of(path);
   REQUIRE(bytes.size() > 20);
   const std::size_t length = word(bytes, 12);
   Character c;

@@ -22,6 +22,12 @@ struct Character {
 Character load_glb(const std::string& path);
 void save_glb(const Character& character, const std::string& path);
 
+/// A file below the tests' output folder, the folder of the templates that come with rigc, a file's
+/// bytes.
+std::string test_out(const std::string& name);
+std::string templates_folder();
+std::string bytes_of(const std::string& path);
+
 /// Path of a corpus file; empty (with a message) where the corpus is absent.
 std::string corpus_file(const std::string& name);
 

@@ -15,8 +15,6 @@
 namespace rigc {
 namespace {
 
-std::string test_out(const std::string& name) { return std::string(RIGC_TEST_OUT) + "/" + name; }
-
 /// The numbers of what was reported, in order.
 std::vector<int> numbers(const Diagnostics& diagnostics) {
   std::vector<int> out;
@@ -26,8 +24,8 @@ std::vector<int> numbers(const Diagnostics& diagnostics) {
 
 pipeline::BuildRequest request_of(const std::string& name) {
   pipeline::BuildRequest request;
-  request.template_file = std::string(RIGC_SOURCE_DIR) + "/templates/" + name;
-  request.paths.templates = {std::string(RIGC_SOURCE_DIR) + "/templates"};
+  request.template_file = test::templates_folder() + "/" + name;
+  request.paths.templates = {test::templates_folder()};
   return request;
 }
 
@@ -48,7 +46,8 @@ using Change = std::function<void(nlohmann::ordered_json&, const gltf::Rig&)>;
 Diagnostics bake_with(const std::string& template_name, const std::string& name, const Keys& keys,
                       const Change& change = {}) {
   Diagnostics diagnostics;
-  const std::string built = test_out(name + ".glb"), keyed = test_out(name + "_keyed.glb");
+  const std::string built = test::test_out(name + ".glb"),
+                    keyed = test::test_out(name + "_keyed.glb");
   REQUIRE(pipeline::build(request_of(template_name), built, diagnostics));
   const auto file = gltf::open(built, diagnostics);
   REQUIRE(file);
@@ -66,7 +65,7 @@ Diagnostics bake_with(const std::string& template_name, const std::string& name,
   }
   pipeline::BakeRequest request;
   request.file = keyed;
-  CHECK(pipeline::bake_file(request, test_out(name + "_baked.glb"), diagnostics));
+  CHECK(pipeline::bake_file(request, test::test_out(name + "_baked.glb"), diagnostics));
   return diagnostics;
 }
 
@@ -105,7 +104,8 @@ TEST_CASE("pipeline codes: a model with two skeletons asks which one") {
   auto root = twice.json["scenes"][0]["nodes"][0];
   shift(root);
   twice.json["scenes"][0]["nodes"].push_back(root);
-  const std::string path = test_out("two_skeletons.glb"), out = test_out("two_skeletons_rig.glb");
+  const std::string path = test::test_out("two_skeletons.glb"),
+                    out = test::test_out("two_skeletons_rig.glb");
   test::save_glb(twice, path);
   std::remove(out.c_str());
   test::made_from(path, path);  // an input: it may have what it has
@@ -157,9 +157,10 @@ TEST_CASE(
   const Diagnostics first = bake_with("prop.yaml", "codes_own", move);
   CHECK(numbers(first).empty());
   pipeline::BakeRequest request;
-  request.file = test_out("codes_own_keyed.glb");
+  request.file = test::test_out("codes_own_keyed.glb");
   request.keep_rig = true;
-  const std::string kept = test_out("codes_own_kept.glb"), again = test_out("codes_own_again.glb");
+  const std::string kept = test::test_out("codes_own_kept.glb"),
+                    again = test::test_out("codes_own_again.glb");
   Diagnostics diagnostics;
   REQUIRE(pipeline::bake_file(request, kept, diagnostics));
   request.file = kept;

@@ -11,19 +11,11 @@
 #include "base/files.h"
 #include "gltf/rig.h"
 #include "pipeline/build.h"
+#include "pipeline/character_helpers.h"
 #include "support/random_template.h"
 
 namespace rigc {
 namespace {
-
-std::string templates_folder() { return std::string(RIGC_SOURCE_DIR) + "/templates"; }
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 void write_text(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
@@ -82,7 +74,7 @@ std::optional<pipeline::Built> build(const std::string& path, const std::string&
                                      Diagnostics& diagnostics) {
   pipeline::BuildRequest request;
   request.template_file = path;
-  request.paths.templates = {templates_folder()};
+  request.paths.templates = {test::templates_folder()};
   return pipeline::build(request, out, diagnostics);
 }
 
@@ -94,13 +86,13 @@ TEST_CASE("pipeline laws: a mutated template builds, or gives diagnostics and wr
   if (!folder_exists(folder)) REQUIRE(std::system(("mkdir -p '" + folder + "'").c_str()) == 0);
   const std::string path = folder + "/mutant.yaml", out = folder + "/mutant.glb";
   std::vector<std::string> names = {"prop.yaml", "biped.yaml", "parts/arm.yaml", "parts/leg.yaml"};
-  for (const std::string& name : list_folder(templates_folder() + "/tutorial")) {
+  for (const std::string& name : list_folder(test::templates_folder() + "/tutorial")) {
     if (name.ends_with(".yaml")) names.push_back("tutorial/" + name);
   }
   std::mt19937_64 random(9);
   std::size_t built = 0, refused = 0;
   for (const std::string& name : names) {
-    const std::string original = text_of(templates_folder() + "/" + name);
+    const std::string original = test::bytes_of(test::templates_folder() + "/" + name);
     for (int i = 0; i < 25; ++i) {
       std::remove(out.c_str());
       const std::string text = mutated(original, random);
@@ -131,7 +123,7 @@ TEST_CASE(
     const auto built = build(path, first, diagnostics);
     REQUIRE_MESSAGE(built, render(diagnostics, false));
     REQUIRE(build(path, second, diagnostics));
-    CHECK(text_of(first) == text_of(second));
+    CHECK(test::bytes_of(first) == test::bytes_of(second));
 
     const auto file = gltf::open(first, diagnostics);
     REQUIRE(file);

@@ -53,16 +53,14 @@ struct Rigged {
   }
 };
 
-std::string test_out(const std::string& name) { return std::string(RIGC_TEST_OUT) + "/" + name; }
-
 Rigged build_on(const std::string& model, const std::string& name) {
   Diagnostics diagnostics;
   pipeline::BuildRequest request;
-  request.template_file = std::string(RIGC_SOURCE_DIR) + "/templates/biped.yaml";
-  request.paths.templates = {std::string(RIGC_SOURCE_DIR) + "/templates"};
+  request.template_file = test::templates_folder() + "/biped.yaml";
+  request.paths.templates = {test::templates_folder()};
   request.model = model;
   Rigged rigged;
-  rigged.path = test_out(name + "_rig.glb");
+  rigged.path = test::test_out(name + "_rig.glb");
   rigged.model = model;
   test::made_from(rigged.path, model);
   const auto built = pipeline::build(request, rigged.path, diagnostics);
@@ -134,12 +132,12 @@ std::string bake_keys(const Rigged& rigged, const std::vector<anim::Channel>& ch
   anim::Clip clip{"test", -1, channels};
   gltf::write_clip(patch, *file, clip, {});
   std::uint64_t bytes = 0;
-  const std::string keyed = test_out(name + "_keyed.glb");
+  const std::string keyed = test::test_out(name + "_keyed.glb");
   REQUIRE(pipeline::write_output(patch, *file, keyed, bytes, diagnostics));
   pipeline::BakeRequest request;
   request.file = keyed;
   request.clips = {"test"};
-  const std::string baked = test_out(name + "_baked.glb");
+  const std::string baked = test::test_out(name + "_baked.glb");
   const auto done = pipeline::bake_file(request, baked, diagnostics);
   REQUIRE_MESSAGE(done, render(diagnostics, false));
   CHECK_FALSE(done->clips.front().passed_through);
@@ -326,7 +324,7 @@ TEST_CASE(
   copies.push_back({"back", test::turned(original, 180), true});
   for (const Copy& copy : copies) {
     CAPTURE(copy.name);
-    const std::string path = test_out("motion_copy_" + copy.name + ".glb");
+    const std::string path = test::test_out("motion_copy_" + copy.name + ".glb");
     test::save_glb(copy.character, path);
     test::made_from(path, path);  // an input: it may have what it has
     const Rigged rigged = build_on(path, "motion_" + copy.name);
