@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whole processes, as a user waits for them: start, work, end. Each repetition is one process; what
-// counts is the minimum and the median. The aims: --version below 3 ms, build of the biped below 25
-// ms.
+// Whole processes, as a user waits for them: start, work, end. The aims: --version below 3 ms,
+// build of the biped below 25 ms.
 #include <benchmark/benchmark.h>
 #include <fcntl.h>
 #include <spawn.h>
@@ -18,8 +17,26 @@ namespace {
 
 const std::string kSource = RIGC_SOURCE_DIR;
 
-/// True where the program ended with status 0.
-bool run(std::vector<std::string> words) {
+void process(benchmark::State& state, const std::vector<std::string>& words) {
+  for ([[maybe_unused]] auto iteration : state) {
+    if (!rigc::bench::run_process(words)) state.SkipWithError("rigc failed");
+  }
+}
+
+void add(const std::string& name, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), RIGC_BINARY);
+  benchmark::RegisterBenchmark(("process/" + name).c_str(), process, arguments)
+      ->Iterations(1)
+      ->Repetitions(100)
+      ->ReportAggregatesOnly()
+      ->ComputeStatistics("min", rigc::bench::least)
+      ->UseRealTime()
+      ->Unit(benchmark::kMillisecond);
+}
+
+}  // namespace
+
+bool rigc::bench::run_process(std::vector<std::string> words) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -33,34 +50,21 @@ bool run(std::vector<std::string> words) {
   return failed == 0 && waitpid(child, &status, 0) == child && status == 0;
 }
 
-void process(benchmark::State& state, const std::vector<std::string>& arguments) {
-  std::vector<std::string> words = {RIGC_BINARY};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  for ([[maybe_unused]] auto iteration : state) {
-    if (!run(words)) state.SkipWithError("rigc failed");
-  }
+std::string rigc::bench::corpus_file(const std::string& path) {
+  const std::string file = kSource + "/../shared/corpus/" + path;
+  return std::filesystem::exists(file) ? file : std::string();
 }
 
-void add(const std::string& name, const std::vector<std::string>& arguments) {
-  benchmark::RegisterBenchmark(("process/" + name).c_str(), process, arguments)
-      ->Iterations(1)
-      ->Repetitions(100)
-      ->ReportAggregatesOnly()
-      ->ComputeStatistics("min", rigc::bench::least)
-      ->UseRealTime()
-      ->Unit(benchmark::kMillisecond);
+std::string rigc::bench::temporary_file(const std::string& name) {
+  return (std::filesystem::temp_directory_path() / ("rigc_bench_" + name)).string();
 }
-
-}  // namespace
 
 void rigc::bench::add_process_benchmarks() {
-  const std::string out = (std::filesystem::temp_directory_path() / "rigc_bench.glb").string();
+  const std::string out = temporary_file("out.glb");
   const std::string biped = kSource + "/templates/biped.yaml";
-  const std::string xbot = kSource + "/../shared/corpus/mixamo_Xbot_blender/Xbot.glb";
+  const std::string xbot = corpus_file("mixamo_Xbot_blender/Xbot.glb");
   add("version", {"--version"});
   add("check_biped", {"check", biped});
   add("build_biped", {"build", biped, "-o", out});
-  if (std::filesystem::exists(xbot)) {
-    add("build_biped_on_xbot", {"build", biped, "--model", xbot, "-o", out});
-  }
+  if (!xbot.empty()) add("build_biped_on_xbot", {"build", biped, "--model", xbot, "-o", out});
 }

@@ -4,7 +4,6 @@
 #include <benchmark/benchmark.h>
 
 #include <chrono>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,7 +26,7 @@ std::vector<std::pair<std::string, double>> time_stages() {
     stages.emplace_back(stage, std::chrono::duration<double>(now - last).count());
     last = now;
   };
-  const std::string out = (std::filesystem::temp_directory_path() / "rigc_bench.glb").string();
+  const std::string out = rigc::bench::temporary_file("stages.glb");
   rigc::Diagnostics diagnostics;
   return rigc::pipeline::build(request, out, diagnostics)
              ? stages

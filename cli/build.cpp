@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "base/text.h"
@@ -23,14 +24,42 @@ std::string size_text(std::uint64_t bytes) {
                              : fmt::format("{:.1f} MB", static_cast<double>(bytes) / (1024 * 1024));
 }
 
+/// How long a beginning two names share, up to an underscore: arm_l_hand of fingers.
+std::size_t shared_begin(const std::string& a, const std::string& b) {
+  std::size_t shared = 0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()) && a[i] == b[i]; ++i)
+    if (a[i] == '_') shared = i;
+  return shared;
+}
+
+/// Names of joints in a row; four and more neighbours that begin alike are counted.
+std::string name_list(const std::vector<std::string>& names) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < names.size();) {
+    std::size_t end = i + 1;
+    std::size_t begin = end < names.size() ? shared_begin(names[i], names[end]) : 0;
+    while (end < names.size() && begin > 0 &&
+           shared_begin(names[i], names[end]) >= std::min(begin, std::size_t{5})) {
+      begin = std::min(begin, shared_begin(names[i], names[end]));
+      ++end;
+    }
+    if (end - i < 4) end = i + 1;
+    parts.push_back(end - i == 1 ? names[i]
+                                 : fmt::format("{}_* ({})", names[i].substr(0, begin), end - i));
+    i = end;
+  }
+  return printable(join(parts, ", "), 300);
+}
+
 std::string fit_text(const templates::FitReport& fit) {
   std::string out = fmt::format("  fitted with map \"{}\": {} joints matched, {:.2f} m tall\n",
                                 fit.map, fit.matched.size(), fit.height_metres);
   const auto line = [&](const char* what, const std::vector<std::string>& names) {
-    if (!names.empty()) out += fmt::format("  {:<9} {}\n", what, printable(join(names, ", "), 300));
+    if (!names.empty()) out += fmt::format("  {:<9} {}\n", what, name_list(names));
   };
-  line("left out:", fit.dropped);
   line("made:", fit.helpers);
+  line("left out:", fit.dropped);
+  line("twist:", fit.twists);
   line("not used:", fit.extra);
   return out;
 }
@@ -56,6 +85,7 @@ std::string summary_json(const pipeline::Built& built, const std::string& out) {
   w.end_array();
   for (const auto& [name, names] : {std::pair{"dropped", &built.fit.dropped},
                                     {"helpers", &built.fit.helpers},
+                                    {"twists", &built.fit.twists},
                                     {"extra", &built.fit.extra}}) {
     w.key(name).begin_array();
     for (const std::string& value : *names) w.value(value);

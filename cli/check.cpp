@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// rigc check: every diagnostic, nothing written. Test: tests/cli/cli_test.cpp
+// rigc check: every diagnostic, nothing written but pins. Test: tests/cli/check_test.cpp
 #include "pipeline/check.h"
-
-#include <fmt/format.h>
 
 #include "cli/command.h"
 
@@ -13,38 +11,29 @@ class Check final : public Command {
  public:
   std::string name() const override { return "check"; }
   std::string summary() const override {
-    return "Report every error of templates and rig files, write nothing";
+    return "Report every error of templates, rig files and models; write nothing";
   }
   std::vector<std::string> examples() const override {
-    return {"rigc check biped.yaml", "rigc check shots/*.glb"};
+    return {"rigc check biped.yaml", "rigc check templates shots", "rigc check hero.glb --json",
+            "rigc check --pin biped.yaml"};
   }
   void declare(Options& options) override {
-    options.positionals("FILE", files_, "Templates (.yaml) and rig files (.glb, .gltf)");
-    declare_paths(options, paths_);
+    options.positionals("FILE", request_.paths_to_check,
+                        "Templates, maps and module descriptors (.yaml), rigs and models (.glb, "
+                        ".gltf, .vrm), folders of them, names of templates");
+    options.flag("--pin", request_.pin,
+                 "Write into templates without errors which version of each module they were "
+                 "written for (`modules:`); pins that are there stay");
+    declare_paths(options, request_.paths);
   }
   void run(Session& session) override {
-    std::size_t good = 0;
-    json::Writer w(2);
-    w.begin_array();
-    for (const std::string& file : files_) {
-      const bool ok = pipeline::check(file, paths_, session.diagnostics);
-      good += ok ? 1 : 0;
-      w.begin_object().member("file", file).member("ok", ok).end_object();
-    }
-    w.end_array();
-    if (session.json) {
-      session.out = w.take() + "\n";
-    } else if (good == files_.size()) {
-      session.out = fmt::format("{} {} checked, no errors\n", good, good == 1 ? "file" : "files");
-    } else {
-      session.out =
-          fmt::format("{} of {} files have errors\n", files_.size() - good, files_.size());
-    }
+    const auto files = pipeline::check(request_, session.diagnostics);
+    session.out = session.json ? pipeline::check_json(files, session.diagnostics)
+                               : pipeline::check_text(files);
   }
 
  private:
-  std::vector<std::string> files_;
-  pipeline::Paths paths_;
+  pipeline::CheckRequest request_;
 };
 
 }  // namespace

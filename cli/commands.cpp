@@ -7,6 +7,7 @@ namespace rigc::cli {
 std::vector<std::unique_ptr<Command>> commands() {
   std::vector<std::unique_ptr<Command>> table;
   table.push_back(make_build());
+  table.push_back(make_map());
   table.push_back(make_check());
   table.push_back(make_plan());
   table.push_back(make_inspect());
@@ -14,6 +15,7 @@ std::vector<std::unique_ptr<Command>> commands() {
   table.push_back(make_bake());
   table.push_back(make_modules());
   table.push_back(make_schema());
+  table.push_back(make_completions());
   table.push_back(make_docs());
   return table;
 }

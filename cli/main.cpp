@@ -39,7 +39,11 @@ class ParserOptions final : public Options {
   }
   void list(const std::string& name, const std::string& value, std::vector<std::string>& target,
             const std::string& help) override {
-    app_.add_option(name, target, help)->type_name(value)->expected(1)->take_all();
+    app_.add_option(name, target, help)
+        ->type_name(value)
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
   }
   void number(const std::string& name, const std::string& value, std::optional<double>& target,
               const std::string& help) override {

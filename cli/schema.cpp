@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // rigc schema: JSON Schemas for editors and checks. Test: tests/cli/cli_test.cpp
+#include "pipeline/schema.h"
 #include "cli/command.h"
-#include "pipeline/reference.h"
 
 namespace rigc::cli {
 namespace {
@@ -9,14 +9,16 @@ namespace {
 class Schema final : public Command {
  public:
   std::string name() const override { return "schema"; }
-  std::string summary() const override {
-    return "Print a JSON Schema: RIGC_rig, or the parameters of a module";
-  }
+  std::string summary() const override { return "Print a JSON Schema, for editors and checks"; }
   std::vector<std::string> examples() const override {
-    return {"rigc schema RIGC_rig", "rigc schema control"};
+    return {"rigc schema template > template.schema.json",
+            "rigc schema template --modules my_modules", "rigc schema ik_fk_limb"};
   }
   void declare(Options& options) override {
-    options.positional("NAME", name_, true, "RIGC_rig or a module's name");
+    options.positional(
+        "NAME", name_, true,
+        "template, map or module (a file that declares one) for files of these; RIGC_rig for "
+        "the extension of rig files; a module's name for its `with:`");
     declare_paths(options, paths_);
   }
   void run(Session& session) override {

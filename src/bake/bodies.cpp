@@ -42,6 +42,12 @@ class Finder {
          const std::vector<bool>& animated, const Options& options)
       : scene_(scene), nodes_(nodes), animated_(animated), options_(options) {
     places_.assign(scene.size(), -1);
+    limited_.assign(scene.size(), false);
+    for (const NodeId id : scene.nodes()) {
+      if (scene[id].kind != scene::Kind::limits) continue;
+      if (const auto limited = scene.source({id, scene::limits::kNode}))
+        limited_[limited->node.index] = true;
+    }
   }
 
   std::vector<Body> find() {
@@ -81,9 +87,10 @@ class Finder {
 
   bool gets_channels(NodeId id) const {
     const NodeId base = standing(id).base;
-    // What hangs under a control moves with it, connected or not.
+    // What hangs under a control moves with it, connected or not. A limited joint may not play what
+    // its own channels say.
     if (is_driven(scene_[id]) || !is_direct(id) || (base.valid() && !is_bone(base))) return true;
-    return animated_[id.index] && !stands_as_scene(id);
+    return animated_[id.index] && (limited_[id.index] || !stands_as_scene(id));
   }
 
   /// Whether what the file plays for a node that gets no channels is what the scene evaluates.
@@ -122,7 +129,8 @@ class Finder {
   const std::vector<int>& nodes_;
   const std::vector<bool>& animated_;
   const Options& options_;
-  std::vector<int> places_;  // in bodies_, by scene node
+  std::vector<int> places_;    // in bodies_, by scene node
+  std::vector<bool> limited_;  // by scene node
   std::vector<Body> bodies_;
 };
 

@@ -109,7 +109,8 @@ std::optional<Plug> plug_of(const scene::Scene& scene, NodeId id, const anim::Ch
       break;
   }
   plug = scene.find_plug(id, channel.attribute);
-  if (plug && plug->attribute < scene::kUserAttributes) return std::nullopt;
+  if (!plug || plug->attribute < scene::kUserAttributes) return std::nullopt;
+  if (!scene[id].user[plug->attribute - scene::kUserAttributes].keyable) return std::nullopt;
   return plug;
 }
 
@@ -132,6 +133,8 @@ std::vector<Input> find_inputs(const scene::Scene& scene, const std::vector<int>
   for (const anim::Channel& channel : clip.channels) {
     const auto id = by_node.find(channel.node);
     if (id == by_node.end() || !channel.curve.times || channel.curve.times->empty()) continue;
+    // What a bake made before is its result, not what it starts from.
+    if (channel.baked) continue;
     const auto plug = plug_of(scene, id->second, channel);
     if (plug && channel.curve.width == scene::width(*scene.type(*plug)))
       curves.emplace(*plug, &channel.curve);

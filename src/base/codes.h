@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Diagnostic codes 1..99: files (1..19), YAML (20..39), values (40..59), JSON (60..79).
+// Diagnostic codes 1..99: files (1..19), YAML (20..39), values (40..59), JSON (60..79), more
+// about files (80..89).
 // Test: every code is provoked by a test in tests/base.
 #pragma once
 
@@ -105,8 +106,9 @@ inline constexpr Code kUnknownKey{
 // JSON.
 inline constexpr Code kJsonSyntax{60, Severity::error, "JSON syntax",
                                   "The text is not JSON as RFC 8259 defines it."};
-inline constexpr Code kJsonTooLarge{61, Severity::error, "JSON is too large",
-                                    "A JSON text has at most 256 MiB and 67,108,864 values."};
+inline constexpr Code kJsonTooLarge{
+    61, Severity::error, "JSON is too large",
+    "A JSON text has at most 256 MiB and 1,048,576 values, and 3 more in each 32 bytes."};
 inline constexpr Code kJsonBadUtf8{62, Severity::error, "JSON is not UTF-8",
                                    "JSON strings are UTF-8; this one has other bytes."};
 inline constexpr Code kJsonBadString{63, Severity::error, "bad JSON string",
@@ -124,6 +126,15 @@ inline constexpr Code kJsonTrailing{
     67, Severity::error, "bytes after the JSON value",
     "A JSON text is one value, followed by nothing but white space."};
 
+// More about files.
+inline constexpr Code kFileChanged{
+    80, Severity::error, "file changed while it was read",
+    "Another program wrote to the file while rigc was reading or copying it, so the result would "
+    "have been a mixture. Nothing was written; run rigc again."};
+
+inline constexpr Code kUnknownChoice{81, Severity::error, "unknown word",
+                                     "Only a few words may stand here; the hint lists them."};
+
 inline constexpr const Code* base_codes[] = {
     &kCannotRead,        &kNotRegularFile,     &kFileTooLarge,     &kCannotWrite,
     &kNoSuchFolder,      &kWriteProtected,     &kFileLocked,       &kHardLink,
@@ -134,12 +145,12 @@ inline constexpr const Code* base_codes[] = {
     &kNotText,           &kNotAName,           &kNotASequence,     &kNotAMap,
     &kWrongCount,        &kUnknownKey,         &kJsonSyntax,       &kJsonTooLarge,
     &kJsonBadUtf8,       &kJsonBadString,      &kJsonDuplicateKey, &kJsonTooDeep,
-    &kJsonNumberRange,   &kJsonTrailing};
+    &kJsonNumberRange,   &kJsonTrailing,       &kFileChanged,      &kUnknownChoice};
 
 /// Errors for which the exit status is 3: not the work but the file system is at fault.
 constexpr bool is_file_system(const Code& code) {
-  return code.severity == Severity::error && code.number <= kFileLocked.number &&
-         code.number != kFileTooLarge.number;
+  return code.severity == Severity::error && code.number != kFileTooLarge.number &&
+         (code.number <= kFileLocked.number || code.number == kFileChanged.number);
 }
 
 }  // namespace rigc::codes

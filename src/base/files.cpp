@@ -28,9 +28,25 @@ void report_special(const std::string& path, mode_t mode, Diagnostics& diagnosti
                      fmt::format("this is {}, not a file", posix::kind_of(mode)));
 }
 
-/// Opens an existing regular file for reading; empty if that failed, which is reported.
-posix::Descriptor open_regular(const std::string& path, struct stat& status,
-                               Diagnostics& diagnostics) {
+/// Reads until the end or until there is more than `limit`; false if the system refused.
+bool read_all(int descriptor, std::uint64_t limit, std::string& text) {
+  std::size_t used = 0;
+  while (used <= limit) {
+    if (used == text.size()) text.resize(used + std::max(used / 2, kPiece));
+    const ssize_t got = ::read(descriptor, text.data() + used, text.size() - used);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return false;
+    if (got == 0) break;
+    used += static_cast<std::size_t>(got);
+  }
+  text.resize(used);
+  return true;
+}
+
+}  // namespace
+
+posix::Descriptor posix::open_regular(const std::string& path, struct stat& status,
+                                      Diagnostics& diagnostics) {
   if (path.empty() || posix::has_nul(path)) {
     diagnostics.report(codes::kCannotRead, path, "this is no path of a file");
     return posix::Descriptor();
@@ -50,27 +66,10 @@ posix::Descriptor open_regular(const std::string& path, struct stat& status,
   return posix::Descriptor();
 }
 
-/// Reads until the end or until there is more than `limit`; false if the system refused.
-bool read_all(int descriptor, std::uint64_t limit, std::string& text) {
-  std::size_t used = 0;
-  while (used <= limit) {
-    if (used == text.size()) text.resize(used + std::max(used / 2, kPiece));
-    const ssize_t got = ::read(descriptor, text.data() + used, text.size() - used);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return false;
-    if (got == 0) break;
-    used += static_cast<std::size_t>(got);
-  }
-  text.resize(used);
-  return true;
-}
-
-}  // namespace
-
 std::optional<std::string> read_file(const std::string& path, std::uint64_t limit,
                                      Diagnostics& diagnostics) {
   struct stat status {};
-  const posix::Descriptor file = open_regular(path, status, diagnostics);
+  const posix::Descriptor file = posix::open_regular(path, status, diagnostics);
   if (!file) return std::nullopt;
   const auto size = static_cast<std::uint64_t>(status.st_size);
   std::string text;
@@ -100,7 +99,7 @@ std::optional<FileLock> FileLock::take(const std::string& path, Diagnostics& dia
     }, now{};
     if (!posix::has_nul(path) && ::stat(path.c_str(), &now) != 0 && errno == ENOENT)
       return FileLock(-1);
-    posix::Descriptor file = open_regular(path, locked, diagnostics);
+    posix::Descriptor file = posix::open_regular(path, locked, diagnostics);
     if (!file) return std::nullopt;
     if (::flock(file.get(), LOCK_EX | LOCK_NB) == 0) {
       const bool is_same = ::stat(path.c_str(), &now) == 0 && now.st_ino == locked.st_ino &&

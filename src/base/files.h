@@ -5,19 +5,16 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "base/bytes.h"
 #include "base/diagnostics.h"
 
 namespace rigc {
-
-/// A big immutable byte buffer that stages share.
-using Bytes = std::shared_ptr<const std::string>;
 
 /// Reads a whole regular file of at most `limit` bytes. Folders, devices, FIFOs and symlink loops
 /// are errors.
@@ -25,8 +22,10 @@ std::optional<std::string> read_file(const std::string& path, std::uint64_t limi
                                      Diagnostics& diagnostics);
 
 /// Writes pieces as one file, atomically; on failure nothing is left behind and the old file stays.
+/// Pieces of files are copied inside the system where it can do that; a file that was changed since
+/// it was opened is an error.
 /// A symbolic link stays and what it points to is replaced; mode and, if possible, owner stay too.
-bool write_file(const std::string& path, const std::vector<std::string_view>& pieces,
+bool write_file(const std::string& path, const std::vector<Bytes>& pieces,
                 Diagnostics& diagnostics);
 
 /// An exclusive lock (flock) of an existing file, held until destroyed, from before the file is

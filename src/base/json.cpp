@@ -11,10 +11,9 @@
 namespace rigc::json {
 namespace {
 
-/// Whether a key as written (without quotes) is `name`.
-bool same_key(std::string_view written, std::string_view name) {
-  if (written.find('\\') == std::string_view::npos) return written == name;
-  return unescape(written) == name;
+/// Most keys differ in length or in the first letter: a call would cost more than looking.
+bool same(std::string_view a, std::string_view b) {
+  return a.size() == b.size() && (a.empty() || (a.front() == b.front() && a == b));
 }
 
 std::string escape_pointer(const std::string& key) {
@@ -51,10 +50,12 @@ std::size_t Value::size() const { return document_ ? document_->items_[index_].c
 Value Value::operator[](std::string_view key) const {
   if (!is_object()) return {};
   const auto& items = document_->items_;
-  const std::string_view text = document_->text_;
-  for (std::uint32_t i = index_ + 1; i < items[index_].next; i = items[i].next) {
-    const std::uint32_t first = items[i].key_begin + 1;
-    if (same_key(text.substr(first, items[i].key_end - 1 - first), key)) return {document_, i};
+  const char* const text = document_->text_.data();
+  const std::uint32_t end = items[index_].next;
+  for (std::uint32_t i = index_ + 1; i < end; i = items[i].next) {
+    const auto& item = items[i];
+    const std::string_view written(text + item.key_begin + 1, item.key_end - item.key_begin - 2);
+    if (item.key_has_escapes ? unescape(written) == key : same(written, key)) return {document_, i};
   }
   return {};
 }
@@ -91,11 +92,18 @@ std::optional<double> Value::number() const {
 std::optional<std::int64_t> Value::integer() const {
   if (!is_number()) return std::nullopt;
   constexpr std::int64_t kMost = std::int64_t{1} << 53;
-  if (const auto whole = parse_integer(text())) {
+  // Most numbers of a model are indices: few digits and nothing else.
+  const std::string_view digits = text();
+  std::int64_t few = 0;
+  std::size_t at = 0;
+  while (at < digits.size() && at < 15 && digits[at] >= '0' && digits[at] <= '9')
+    few = few * 10 + (digits[at++] - '0');
+  if (at == digits.size()) return few;
+  if (const auto whole = parse_integer(digits)) {
     if (*whole < -kMost || *whole > kMost) return std::nullopt;
     return *whole;
   }
-  const auto value = parse_number(text());
+  const auto value = parse_number(digits);
   if (!value || std::abs(*value) > static_cast<double>(kMost) || *value != std::trunc(*value))
     return std::nullopt;
   return static_cast<std::int64_t>(*value);

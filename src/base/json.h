@@ -15,6 +15,9 @@
 
 namespace rigc::json {
 
+/// Longer texts are refused.
+inline constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+
 enum class ValueKind : std::uint8_t { null, boolean, number, string, array, object };
 
 class Document;
@@ -64,6 +67,8 @@ class Document {
  public:
   Value root() const;
   std::string_view text() const { return text_; }
+  /// How many values there are, at every depth. Each takes 32 bytes.
+  std::size_t size() const { return items_.size(); }
 
  private:
   friend class Value;
@@ -77,6 +82,7 @@ class Document {
     std::uint32_t next = 0;   ///< item after this one and all inside it
     std::uint32_t count = 0;  ///< elements or members
     ValueKind kind = ValueKind::null;
+    bool key_has_escapes = false;
   };
   std::string text_;
   std::vector<Item> items_;

@@ -15,10 +15,11 @@
 namespace rigc::json {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 28;
-constexpr std::size_t kMostItems = std::size_t{1} << 26;
 constexpr std::size_t kMostDepth = 512;
 constexpr std::size_t kFewMembers = 8;
+
+/// Values in a text. They take 32 bytes each: never more than 32 MB and three times the text.
+std::size_t most_items(std::size_t bytes) { return (std::size_t{1} << 20) + bytes / 32 * 3; }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -91,6 +92,7 @@ std::size_t utf8_length(const char* at, const char* end) {
 }  // namespace
 
 std::string unescape(std::string_view text) {
+  if (text.find('\\') == std::string_view::npos) return std::string(text);
   std::string out;
   out.reserve(text.size());
   const char* const end = text.data() + text.size();
@@ -171,6 +173,8 @@ class Parser {
   std::vector<Item> items_;
   std::vector<std::uint32_t> stack_;
   std::uint32_t key_begin_ = 0, key_end_ = 0;
+  bool key_has_escapes_ = false;
+  bool string_has_escapes_ = false;  ///< the string parsed last
   bool wants_value_ = true;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> hashes_;
 };
@@ -213,12 +217,12 @@ void Parser::reserve_items() {
   // Growing would copy and touch twice the memory. Commas in strings count too, hence the cap.
   std::size_t values = 1;
   for (char c : text_) values += c == ',' || c == '[' || c == '{';
-  items_.reserve(std::min({values, text_.size() / 8 + 1, kMostItems}));
+  items_.reserve(std::min(values, most_items(text_.size())));
 }
 
 bool Parser::begin_item(ValueKind kind) {
-  if (items_.size() == kMostItems)
-    return fail(codes::kJsonTooLarge, fmt::format("more than {} values", kMostItems));
+  if (items_.size() == most_items(text_.size()))
+    return fail(codes::kJsonTooLarge, fmt::format("more than {} values", items_.size()));
   Item& item = items_.emplace_back();
   item.kind = kind;
   item.begin = position();
@@ -229,6 +233,7 @@ bool Parser::begin_item(ValueKind kind) {
     if (parent.kind == ValueKind::object) {
       item.key_begin = key_begin_;
       item.key_end = key_end_;
+      item.key_has_escapes = key_has_escapes_;
     }
   }
   return true;
@@ -318,6 +323,7 @@ bool Parser::parse_key() {
   key_begin_ = position();
   if (!parse_string()) return false;
   key_end_ = position();
+  key_has_escapes_ = string_has_escapes_;
   skip_blanks();
   if (at_ == end_ || *at_ != ':') return fail(codes::kJsonSyntax, "expected `:`, not " + found());
   ++at_;
@@ -327,6 +333,7 @@ bool Parser::parse_key() {
 bool Parser::parse_string() {
   const std::uint32_t begin = position();
   ++at_;
+  string_has_escapes_ = false;
   while (true) {
     const char* plain = at_;
     while (end_ - plain >= 8 && !has_special(plain)) plain += 8;
@@ -338,6 +345,7 @@ bool Parser::parse_string() {
       return true;
     }
     if (*at_ == '\\') {
+      string_has_escapes_ = true;
       if (!parse_escape()) return false;
     } else if (static_cast<unsigned char>(*at_) < 0x20) {
       return fail(codes::kJsonBadString, "control character in a string");
@@ -414,7 +422,7 @@ void Parser::check_keys(const Item& object) {
   };
   bool has_escapes = false;
   for (std::uint32_t i = first; i < object.next; i = items_[i].next)
-    has_escapes = has_escapes || key_of(items_[i]).find('\\') != std::string_view::npos;
+    has_escapes = has_escapes || items_[i].key_has_escapes;
   if (object.count <= kFewMembers && !has_escapes) {
     for (std::uint32_t i = first; i < object.next; i = items_[i].next)
       for (std::uint32_t j = first; j < i; j = items_[j].next)

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-// What files.cpp, write_file.cpp and paths.cpp share; nobody else includes it.
+// What files.cpp, bytes.cpp, write_file.cpp and paths.cpp share; nobody else includes it.
 // Test: tests/base/files_test.cpp
 #pragma once
 
+#include <sys/stat.h>
 #include <sys/types.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+
+#include "base/diagnostics.h"
 
 namespace rigc::posix {
 
@@ -34,6 +38,9 @@ class Descriptor {
 /// open() with O_CLOEXEC and O_NOCTTY, again after signals.
 Descriptor open(const std::string& path, int flags, mode_t mode = 0);
 
+/// Opens an existing regular file for reading; empty if that failed, which is reported.
+Descriptor open_regular(const std::string& path, struct stat& status, Diagnostics& diagnostics);
+
 /// What the system says about an error number, in English whatever the locale.
 std::string text_of_error(int error);
 
@@ -49,3 +56,25 @@ std::optional<std::string> read_link(const std::string& path);
 bool is_temporary_name(const std::string& name);
 
 }  // namespace rigc::posix
+
+namespace rigc {
+
+/// A regular file held open for reading. Others may write to it meanwhile: what is read is what was
+/// there at opening only if check_unchanged() says so afterwards.
+class OpenFile {
+ public:
+  static std::shared_ptr<const OpenFile> open(const std::string& path, Diagnostics& diagnostics);
+  int descriptor() const { return descriptor_.get(); }
+  std::uint64_t size() const { return static_cast<std::uint64_t>(status_.st_size); }
+  bool read(std::uint64_t offset, std::size_t length, char* to, Diagnostics& diagnostics) const;
+  /// Size and time of the last change are those of the opening; else that is reported.
+  bool check_unchanged(Diagnostics& diagnostics) const;
+  void report_change(Diagnostics& diagnostics) const;
+
+ private:
+  posix::Descriptor descriptor_;
+  std::string path_;
+  struct stat status_ {};
+};
+
+}  // namespace rigc

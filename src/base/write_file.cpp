@@ -14,6 +14,7 @@
 #include <cstdio>
 
 #include "base/codes.h"
+#include "base/early_flush.h"
 #include "base/files.h"
 #include "base/ids.h"
 #include "base/posix.h"
@@ -22,6 +23,8 @@ namespace rigc {
 namespace {
 
 constexpr std::size_t kMostPerWrite = std::size_t{1} << 30;
+constexpr std::uint64_t kBlock = std::uint64_t{1} << 18;
+constexpr std::uint64_t kMostPerCopy = std::uint64_t{1} << 22;
 constexpr time_t kStaleSeconds = 600;
 
 std::atomic<unsigned> temporary_counter{0};
@@ -156,6 +159,44 @@ bool write_all(int descriptor, std::string_view piece) {
   return true;
 }
 
+/// Writes a piece at the position of `to`; where that fails, it is reported.
+bool append(const Bytes& piece, int to, EarlyFlush& early, const std::string& path,
+            Diagnostics& diagnostics) {
+  if (!piece.file()) {
+    if (!write_all(to, piece.memory())) return refuse(path, "write", errno, diagnostics);
+    early.wrote(piece.size());
+    return true;
+  }
+  std::uint64_t done = 0;
+  while (done < piece.size()) {
+    auto from = static_cast<off_t>(piece.offset() + done);
+    const ssize_t copied = ::copy_file_range(piece.file()->descriptor(), &from, to, nullptr,
+                                             std::min(piece.size() - done, kMostPerCopy), 0);
+    if (copied < 0 && errno == EINTR) continue;
+    if (copied <= 0) break;  // not between these file systems, or the end: reading tells which
+    done += static_cast<std::uint64_t>(copied);
+    early.wrote(static_cast<std::uint64_t>(copied));
+  }
+  std::string block;
+  for (; done < piece.size(); done += block.size()) {
+    block.resize(std::min(piece.size() - done, kBlock));
+    if (!piece.read(done, block.size(), block.data(), diagnostics)) return false;
+    if (!write_all(to, block)) return refuse(path, "write", errno, diagnostics);
+    early.wrote(block.size());
+  }
+  return true;
+}
+
+bool append_all(const std::vector<Bytes>& pieces, int to, const std::string& path,
+                Diagnostics& diagnostics) {
+  std::uint64_t size = 0;
+  for (const Bytes& piece : pieces) size += piece.size();
+  EarlyFlush early(to, size);
+  return std::all_of(pieces.begin(), pieces.end(), [&](const Bytes& piece) {
+    return append(piece, to, early, path, diagnostics);
+  });
+}
+
 bool flush(int descriptor) {
   while (::fsync(descriptor) != 0) {
     // Some file systems cannot flush folders; there is nothing to be done about it.
@@ -174,7 +215,7 @@ bool copy_mode(int descriptor, const struct stat& status) {
 
 }  // namespace
 
-bool write_file(const std::string& path, const std::vector<std::string_view>& pieces,
+bool write_file(const std::string& path, const std::vector<Bytes>& pieces,
                 Diagnostics& diagnostics) {
   Target target;
   if (!find_target(path, target, diagnostics)) return false;
@@ -184,14 +225,15 @@ bool write_file(const std::string& path, const std::vector<std::string_view>& pi
   Temporary temporary(target.path);
   posix::Descriptor& file = temporary.file();
   if (!file) return refuse(path, "create a file in its folder", errno, diagnostics);
-  for (std::string_view piece : pieces)
-    if (!write_all(file.get(), piece)) return refuse(path, "write", errno, diagnostics);
+  if (!append_all(pieces, file.get(), path, diagnostics)) return false;
   if (target.exists && !copy_mode(file.get(), target.status))
     return refuse(path, "set the mode", errno, diagnostics);
   struct stat written {};
   if (!flush(file.get()) || ::fstat(file.get(), &written) != 0)
     return refuse(path, "flush", errno, diagnostics);
   if (!file.close()) return refuse(path, "close", errno, diagnostics);
+  for (const Bytes& piece : pieces)
+    if (piece.file() && !piece.file()->check_unchanged(diagnostics)) return false;
   if (!temporary.become(target.path)) return refuse(path, "rename", errno, diagnostics);
   remove_leftovers(target.path, written.st_mtime);
   if (folder && !flush(folder.get()))

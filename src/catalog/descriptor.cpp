@@ -10,14 +10,11 @@
 #include "base/files.h"
 #include "base/text.h"
 #include "catalog/codes.h"
+#include "catalog/format.h"
 #include "catalog/reader.h"
 
 namespace rigc::catalog {
 namespace {
-
-const std::vector<std::string> kKeys = {
-    "module",         "version", "title",    "category", "stage",      "summary", "help",
-    "implementation", "creates", "replaces", "changes",  "parameters", "example"};
 
 class DescriptorReader {
  public:
@@ -99,14 +96,14 @@ bool DescriptorReader::declares(const std::string& parameter) {
 
 void DescriptorReader::read_creates() {
   for (const yaml::Node& item : list_of(root_, "creates", diagnostics_)) {
-    yaml::check_keys(item, {"role", "kind", "per", "help"}, "creates", diagnostics_);
+    yaml::check_section(item, creates_format(), diagnostics_);
     if (!item.is_map()) continue;
     Creates made;
     made.role = need_name(item, "role", "creates", diagnostics_);
     made.kind = need_name(item, "kind", "creates", diagnostics_);
     made.help = need_text(item, "help", "creates", diagnostics_);
     if (const yaml::Node* per = item.find("per")) {
-      made.per = word_of(*per, {"command", "joint"}, "per", diagnostics_);
+      made.per = word_of(*per, creates_format().words("per"), "per", diagnostics_);
     }
     const auto& creates = descriptor_.creates;
     const bool twice = std::any_of(creates.begin(), creates.end(), [&](const Creates& other) {
@@ -145,8 +142,7 @@ void DescriptorReader::read_replaces() {
 
 void DescriptorReader::read_changes() {
   for (const yaml::Node& item : list_of(root_, "changes", diagnostics_)) {
-    yaml::check_keys(item, {"version", "parameter", "was", "default_was", "note"}, "change",
-                     diagnostics_);
+    yaml::check_section(item, change_format(), diagnostics_);
     if (item.is_map()) read_change(item);
   }
 }
@@ -192,7 +188,7 @@ std::optional<Descriptor> read_descriptor(std::uint32_t file, Diagnostics& diagn
   const std::size_t errors = diagnostics.errors();
   const auto root = yaml::read(file, diagnostics);
   if (!root) return std::nullopt;
-  yaml::check_keys(*root, kKeys, "descriptor", diagnostics);
+  yaml::check_section(*root, descriptor_format(), diagnostics);
   if (!root->is_map()) return std::nullopt;
   Descriptor descriptor = DescriptorReader(*root, diagnostics).read(file);
   if (diagnostics.errors() != errors) return std::nullopt;

@@ -99,6 +99,7 @@ std::optional<Mismatch> mismatch(const Parameter& parameter, const Literal& valu
 
 /// `name`, `local`, `label`: what every command that makes nodes takes besides its descriptor's
 /// parameters.
+const std::vector<Parameter>& creation_parameters();
 bool is_creation_parameter(std::string_view name);
 
 /// The colours that have names, and what they are (sRGB, 0..1).
@@ -106,6 +107,7 @@ std::optional<std::array<double, 3>> named_color(std::string_view name);
 std::vector<std::string> color_names();
 
 std::string_view name_of(ParameterType type);  ///< as in YAML
+std::optional<ParameterType> parse_type(std::string_view name);
 std::string_view name_of(Stage stage);
 std::optional<Stage> parse_stage(std::string_view name);
 

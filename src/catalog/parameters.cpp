@@ -7,14 +7,11 @@
 
 #include "base/text.h"
 #include "catalog/codes.h"
+#include "catalog/format.h"
 #include "catalog/reader.h"
 
 namespace rigc::catalog {
 namespace {
-
-const std::vector<std::string> kKeys = {"name",     "type",    "title",    "help", "kind",
-                                        "required", "default", "optional", "unit", "values",
-                                        "min",      "max",     "side"};
 
 bool has_range(ParameterType type) {
   return type == ParameterType::number || type == ParameterType::numbers ||
@@ -70,7 +67,7 @@ class ParameterReader {
 
 std::optional<Parameter> ParameterReader::read(const std::string& frame) {
   const std::size_t errors = diagnostics_.errors();
-  if (!yaml::check_keys(node_, kKeys, "parameter", diagnostics_) && !node_.is_map()) return {};
+  if (!yaml::check_section(node_, parameter_format(), diagnostics_) && !node_.is_map()) return {};
   Parameter parameter;
   parameter.frame = frame;
   parameter.name = need_name(node_, "name", "parameter", diagnostics_);
@@ -165,7 +162,7 @@ void ParameterReader::read_presence(Parameter& parameter) {
 
 void read_frame(const yaml::Node& item, std::string& frame, std::vector<std::string>& frames,
                 Diagnostics& diagnostics) {
-  yaml::check_keys(item, {"frame"}, "frame", diagnostics);
+  yaml::check_section(item, frame_format(), diagnostics);
   frame = need_text(item, "frame", "frame", diagnostics);
   if (std::count(frames.begin(), frames.end(), frame) != 0) {
     diagnostics.report(codes::kDuplicateFrame, item.span,

@@ -15,7 +15,6 @@ namespace rigc::catalog {
 
 std::vector<std::string> type_names();
 std::vector<std::string> stage_names();
-std::optional<ParameterType> parse_type(std::string_view name);
 
 /// The value of a key that must be there; null where it is not, which is reported.
 const yaml::Node* need(const yaml::Node& map, std::string_view key, std::string_view what,

@@ -9,14 +9,12 @@
 
 #include "base/text.h"
 #include "catalog/codes.h"
+#include "catalog/format.h"
 #include "catalog/polyline.h"
 #include "catalog/reader.h"
 
 namespace rigc::catalog {
 namespace {
-
-constexpr double kFarthest = 1000;
-constexpr std::size_t kMostPoints = 4096;
 
 class ShapeReader {
  public:
@@ -46,8 +44,7 @@ class ShapeReader {
 
 Shape ShapeReader::read() {
   const std::size_t errors = diagnostics_.errors();
-  yaml::check_keys(node_, {"help", "lines", "curves", "circles", "repeat", "mirror"},
-                   "shape " + shape_.name, diagnostics_);
+  yaml::check_section(node_, shape_format(), "shape " + shape_.name, diagnostics_);
   if (!node_.is_map()) return {};
   shape_.help = text_of(node_, "help", diagnostics_);
   read_lines("lines");
@@ -107,8 +104,7 @@ std::optional<Point> ShapeReader::read_point(const yaml::Node& node) {
 }
 
 void ShapeReader::read_circle(const yaml::Node& node) {
-  yaml::check_keys(node, {"radius", "centre", "normal", "segments", "from", "to"}, "circle",
-                   diagnostics_);
+  yaml::check_section(node, circle_format(), diagnostics_);
   Arc arc;
   if (node.is_map() && read_arc(node, arc)) shape_.lines.push_back(polyline(arc));
 }

@@ -68,8 +68,27 @@ std::vector<std::string> color_names() {
   return names;
 }
 
+const std::vector<Parameter>& creation_parameters() {
+  static const std::vector<Parameter> kParameters = [] {
+    std::vector<Parameter> parameters(3);
+    const char* const names[] = {"name", "local", "label"};
+    const char* const helps[] = {
+        "Name of what it makes, for people (default: from its joint and role).",
+        "Local group of what it makes (default: its joint's).",
+        "Label of what it makes (default: its joint's)."};
+    for (std::size_t i = 0; i < 3; ++i) {
+      parameters[i].name = names[i];
+      parameters[i].type = ParameterType::text;
+      parameters[i].help = helps[i];
+    }
+    return parameters;
+  }();
+  return kParameters;
+}
+
 bool is_creation_parameter(std::string_view name) {
-  return name == "name" || name == "local" || name == "label";
+  const std::vector<Parameter>& all = creation_parameters();
+  return std::any_of(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name; });
 }
 
 const Parameter* Descriptor::find(std::string_view parameter) const {

@@ -11,6 +11,8 @@
 #include "eval/codes.h"
 #include "eval/cycle.h"
 #include "eval/emitter.h"
+#include "eval/kernels/limit.h"
+#include "eval/limits.h"
 #include "eval/program.h"
 #include "eval/rules.h"
 #include "eval/values.h"
@@ -27,11 +29,17 @@ namespace transform = scene::transform;
 // All that the instructions of one node compute.
 constexpr std::uint16_t kBlock = UINT16_MAX;
 
-// Something that is computed once. `beneath`: what a rotation is where nothing is connected into
-// its Euler view, and what the view shows there.
+// Of a transform's own values there are up to three.
+enum class Layer : std::uint8_t {
+  limited,  // what everybody reads
+  free,     // before limits and locks, where there are any
+  beneath   // what a rotation is where nothing is connected into its Euler view; what that shows
+};
+
+// Something that is computed once.
 struct Key {
   Plug plug;
-  bool beneath = false;
+  Layer layer = Layer::limited;
   bool operator==(const Key&) const = default;
 };
 
@@ -40,7 +48,8 @@ struct KeyHash {
     std::uint64_t h = key.plug.node.index;
     h = h * 0x9e3779b97f4a7c15u + key.plug.attribute;
     h = h * 0x9e3779b97f4a7c15u + static_cast<std::uint32_t>(key.plug.element);
-    h = h * 0x9e3779b97f4a7c15u + static_cast<std::uint32_t>(key.plug.component) * 2 + key.beneath;
+    h = h * 0x9e3779b97f4a7c15u + static_cast<std::uint32_t>(key.plug.component) * 4 +
+        static_cast<std::uint32_t>(key.layer);
     return static_cast<std::size_t>(h ^ (h >> 29));
   }
 };
@@ -58,6 +67,7 @@ enum class Step : std::uint8_t {
   gather,    // all it needs, one after the other
   from_euler,
   to_euler,
+  limit,    // what it needs, clamped
   compose,  // translate, rotation, scale [, parent's world]
   block     // the instructions of a node
 };
@@ -72,7 +82,10 @@ struct Plan {
 class Compiler {
  public:
   Compiler(const scene::Scene& scene, Diagnostics& diagnostics)
-      : scene_(scene), diagnostics_(diagnostics), before_(diagnostics.errors()) {}
+      : scene_(scene),
+        diagnostics_(diagnostics),
+        before_(diagnostics.errors()),
+        limits_(scene, diagnostics) {}
 
   std::optional<Program> compile(const Request& request) {
     for (const Plug& plug : request.inputs) {
@@ -169,7 +182,8 @@ class Compiler {
                                     [&](const Frame& frame) { return frame.key == start; });
     std::vector<Plug> ring;
     for (auto at = begin; at != stack_.end(); ++at) {
-      if (at->key.plug.attribute != kBlock && !at->key.beneath) ring.push_back(at->key.plug);
+      if (at->key.plug.attribute != kBlock && at->key.layer == Layer::limited)
+        ring.push_back(at->key.plug);
     }
     report_cycle(scene_, std::move(ring), diagnostics_);
   }
@@ -190,6 +204,7 @@ class Compiler {
   Plan plan(const Key& key) const {
     const Plug& plug = key.plug;
     if (plug.attribute == kBlock) return plan_block(plug.node);
+    if (key.layer == Layer::limited && limits_.apply_to(plug)) return plan_limited(plug);
     if (plug.component >= 0) return plan_component(key);
     if (scene_.role(plug) == Role::output) {
       return is_transform(plug.node) ? plan_world(plug) : plan_output(plug);
@@ -255,27 +270,34 @@ class Compiler {
     return scene_.source(rotate) || has_component_source(rotate) || input_at(rotate);
   }
 
+  Plan plan_limited(const Plug& plug) const {
+    if (plug.component >= 0)
+      return alias({whole(plug)}, static_cast<std::uint32_t>(plug.component), 1);
+    if (is_euler_view(plug)) return {Step::to_euler, {{{plug.node, transform::kRotation}}}, 0, 4};
+    return {Step::limit, {{plug, Layer::free}}, 0, width_of({plug})};
+  }
+
   Plan plan_whole(const Key& key) const {
     const Plug& plug = key.plug;
     const std::uint32_t width = width_of(key);
-    if (is_rotation(plug) && !key.beneath && euler_rules(plug.node)) {
-      return {Step::from_euler, {{{plug.node, transform::kRotate}}}, 0, 4};
+    if (is_rotation(plug) && key.layer != Layer::beneath && euler_rules(plug.node)) {
+      return {Step::from_euler, {{{plug.node, transform::kRotate}, key.layer}}, 0, 4};
     }
-    if (is_euler_view(plug) && key.beneath) {
-      return {Step::to_euler, {{{plug.node, transform::kRotation}, true}}, 0, 4};
+    if (is_euler_view(plug) && key.layer == Layer::beneath) {
+      return {Step::to_euler, {{{plug.node, transform::kRotation}, Layer::beneath}}, 0, 4};
     }
     if (has_component_source(plug)) {
       Plan plan{Step::gather, {}, 0, width};
       for (std::uint32_t c = 0; c < width; ++c) {
         Plug component = plug;
         component.component = static_cast<std::int8_t>(c);
-        plan.needs.push_back({component, key.beneath});
+        plan.needs.push_back({component, key.layer});
       }
       return plan;
     }
     if (const auto source = scene_.source(plug)) return alias({*source}, 0, width);
     if (input_at(plug)) return {Step::input, {}, 0, width};
-    if (is_euler_view(plug)) return alias({plug, true}, 0, width);
+    if (is_euler_view(plug)) return alias({plug, Layer::beneath}, 0, width);
     return {};
   }
 
@@ -283,13 +305,13 @@ class Compiler {
     const Plug& plug = key.plug;
     const auto component = static_cast<std::uint32_t>(plug.component);
     if (scene_.role(plug) == Role::output) return alias({whole(plug)}, component, 1);
-    if (is_rotation(plug) && !key.beneath && euler_rules(plug.node)) {
-      return alias({whole(plug)}, component, 1);
+    if (is_rotation(plug) && key.layer != Layer::beneath && euler_rules(plug.node)) {
+      return alias({whole(plug), key.layer}, component, 1);
     }
     if (const auto source = scene_.source(plug)) return alias({*source}, 0, 1);
     if (const auto source = scene_.source(whole(plug))) return alias({*source}, component, 1);
     if (input_at(whole(plug))) return {Step::input, {}, component, 1};
-    if (is_euler_view(plug)) return alias({whole(plug), true}, component, 1);
+    if (is_euler_view(plug)) return alias({whole(plug), Layer::beneath}, component, 1);
     return {};
   }
 
@@ -312,6 +334,8 @@ class Compiler {
         return emitter_.emit(Op::from_euler, operands, {}, 4, node);
       case Step::to_euler:
         return emitter_.emit(Op::to_euler, {part(key, operands[0], plan)}, {}, 3, node);
+      case Step::limit:
+        return build_limited(key.plug, operands[0]);
       case Step::compose:
         return build_world(operands, node);
       case Step::block:
@@ -337,6 +361,15 @@ class Compiler {
     return numbers_of(scene_.value(plug));
   }
 
+  Operand build_limited(const Plug& plug, Operand value) {
+    for (const Limit& limit : *limits_.of(plug.node)) {
+      if (limit.attribute != plug.attribute) continue;
+      const Op op = is_rotation(plug) ? Op::limit_rotation : Op::limit_vector;
+      value = emitter_.emit(op, {value}, limit_data(limit.space), value.width, limit.by.index);
+    }
+    return value;
+  }
+
   Operand build_world(const std::vector<Operand>& operands, std::uint32_t node) {
     const Operand local =
         emitter_.emit(Op::compose, {operands[0], operands[1], operands[2]}, {}, 12, node);
@@ -353,6 +386,7 @@ class Compiler {
   const scene::Scene& scene_;
   Diagnostics& diagnostics_;
   std::size_t before_;
+  Limits limits_;
   Emitter emitter_;
   std::vector<Operand> inputs_;
   std::unordered_map<Key, Operand, KeyHash> varying_;

@@ -29,6 +29,9 @@ constexpr std::array<KindRule, static_cast<std::size_t>(Kind::count)> kRules = {
     {Kind::expression, expression_reads, expression_emit, number_place},
     {Kind::remap, remap_reads, remap_emit, number_place},
     {Kind::mesh, nullptr, nullptr, nullptr},
+    {Kind::limits, nullptr, nullptr, nullptr},
+    {Kind::display_layer, nullptr, nullptr, nullptr},
+    {Kind::control_set, nullptr, nullptr, nullptr},
 }};
 
 constexpr bool complete() {

@@ -22,7 +22,8 @@ struct OutputPlace {
 struct KindRule {
   scene::Kind kind;
   /// The plugs that the instructions read, in the order in which `emit` takes them. Null: the kind
-  /// computes nothing here (transforms are compiled by compile.cpp itself, meshes are data).
+  /// computes nothing here (transforms are compiled by compile.cpp itself, which asks limits.h;
+  /// meshes, layers and sets are data).
   std::vector<scene::Plug> (*reads)(const scene::Scene&, scene::NodeId);
   /// Nothing where the node's data are wrong, which is then reported.
   std::optional<Operand> (*emit)(Emitter&, const scene::Scene&, scene::NodeId,

@@ -16,6 +16,7 @@ namespace {
 
 /// Zeros take no bytes in a file, so its size does not bound them.
 constexpr std::uint64_t kMostZeros = std::uint64_t{1} << 24;
+constexpr std::uint64_t kBlock = std::uint64_t{1} << 16;
 
 class Reader {
  public:
@@ -29,13 +30,12 @@ class Reader {
       return fail(codes::kNoData, "has no buffer view and is too long to be all zeros");
     std::vector<float> values(count * width, 0.0f);
     if (accessor.view >= 0) {
-      const auto bytes = view_bytes(accessor.view);
-      if (!bytes) return std::nullopt;
       const std::size_t size = component_size(accessor.component) * width;
       const std::uint64_t given = slim_.views[static_cast<std::size_t>(accessor.view)].stride;
-      const std::uint64_t stride = given != 0 ? given : size;
-      for (std::uint64_t i = 0; i < count; ++i)
-        element(bytes->data() + accessor.offset + i * stride, &values[i * width]);
+      const bool good =
+          for_each(accessor.view, accessor.offset, given != 0 ? given : size, size, count,
+                   [&](std::uint64_t i, const char* at) { element(at, &values[i * width]); });
+      if (!good) return std::nullopt;
     }
     if (accessor.sparse.count != 0 && !read_sparse(values, count)) return std::nullopt;
     for (float value : values)
@@ -51,11 +51,31 @@ class Reader {
   }
 
   /// The bytes of a view; reported where an extension holds them or the buffer is not there.
-  std::optional<std::string_view> view_bytes(int index) {
+  std::optional<Bytes> view_bytes(int index) {
     const SlimView& view = slim_.views[static_cast<std::size_t>(index)];
-    const std::string_view bytes = file_.buffers[static_cast<std::size_t>(view.buffer)].bytes;
-    if (bytes.empty()) return fail(codes::kNoData, "has its data in a buffer without bytes");
-    return bytes.substr(view.offset, view.length);
+    const Bytes& bytes = file_.buffers[static_cast<std::size_t>(view.buffer)].bytes;
+    if (bytes.empty() || view.unfilled)
+      return fail(codes::kNoData, "has its data in a buffer without bytes");
+    return bytes.part(view.offset, view.length);
+  }
+
+  /// Calls `use(i, bytes)` for `count` elements of `size` bytes in a view, `stride` apart, which
+  /// are read in blocks; false where they could not be, which is reported.
+  template <class Use>
+  bool for_each(int view, std::uint64_t offset, std::uint64_t stride, std::size_t size,
+                std::uint64_t count, const Use& use) {
+    const auto bytes = view_bytes(view);
+    if (!bytes) return false;
+    std::string block;
+    for (std::uint64_t first = 0; first < count;) {
+      const std::uint64_t end =
+          std::min(count, first + std::max<std::uint64_t>(kBlock / stride, 1));
+      block.resize((end - first - 1) * stride + size);
+      if (!bytes->read(offset + first * stride, block.size(), block.data(), diagnostics_))
+        return false;
+      for (const char* at = block.data(); first < end; ++first, at += stride) use(first, at);
+    }
+    return true;
   }
 
   template <class T>
@@ -101,25 +121,27 @@ class Reader {
   bool read_sparse(std::vector<float>& values, std::uint64_t count) {
     const SlimAccessor& accessor = slim_.accessors[static_cast<std::size_t>(index_)];
     const SlimAccessor::Sparse& sparse = accessor.sparse;
-    const auto indices = view_bytes(sparse.index_view);
-    const auto elements = view_bytes(sparse.value_view);
-    if (!indices || !elements) return false;
     const auto width = static_cast<std::size_t>(accessor.width);
     const std::size_t size = component_size(accessor.component) * width;
     const std::size_t index_size = component_size(sparse.index_component);
-    std::optional<std::uint64_t> last;
-    for (std::uint64_t i = 0; i < sparse.count; ++i) {
-      const char* at = indices->data() + sparse.index_offset + i * index_size;
-      const std::uint64_t index = sparse_index(at, sparse.index_component);
-      if (index >= accessor.count || (last && index <= *last)) {
-        fail(codes::kSparse, "has sparse indices that do not rise or lie beyond its end");
-        return false;
-      }
-      last = index;
-      if (index < count)
-        element(elements->data() + sparse.value_offset + i * size, &values[index * width]);
+    std::vector<std::uint64_t> indices;
+    bool rising = true;
+    const bool good = for_each(
+        sparse.index_view, sparse.index_offset, index_size, index_size, sparse.count,
+        [&](std::uint64_t, const char* at) {
+          const std::uint64_t index = sparse_index(at, sparse.index_component);
+          rising = rising && index < accessor.count && (indices.empty() || index > indices.back());
+          indices.push_back(index);
+        });
+    if (!good) return false;
+    if (!rising) {
+      fail(codes::kSparse, "has sparse indices that do not rise or lie beyond its end");
+      return false;
     }
-    return true;
+    return for_each(sparse.value_view, sparse.value_offset, size, size, sparse.count,
+                    [&](std::uint64_t i, const char* at) {
+                      if (indices[i] < count) element(at, &values[indices[i] * width]);
+                    });
   }
 
   const File& file_;

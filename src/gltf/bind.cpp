@@ -33,6 +33,13 @@ Affine affine(const float* m) {
   return a;
 }
 
+/// Whether the last row of a matrix is 0 0 0 1, but for rounding.
+bool is_affine(const float* m) {
+  constexpr float kRounding = 1e-4f;
+  return std::abs(m[3]) <= kRounding && std::abs(m[7]) <= kRounding &&
+         std::abs(m[11]) <= kRounding && std::abs(m[15] - 1) <= kRounding;
+}
+
 /// Logarithm of the mean scale; the determinant must not be 0.
 double log_scale(const Affine& a) { return math::log(std::abs(math::determinant(a.linear))) / 3; }
 
@@ -73,14 +80,13 @@ class BindReader {
     if (!floats) return;
     std::vector<Affine> matrices;
     for (std::size_t i = 0; i < source.joints.size(); ++i) {
-      const Affine inverse_bind = affine(floats->data() + 16 * i);
+      const float* numbers = floats->data() + 16 * i;
+      const Affine inverse_bind = affine(numbers);
       const double determinant = math::determinant(inverse_bind.linear);
       if (!(std::abs(determinant) > 1e-30))
-        diagnostics_.report(codes::kBindSingular,
-                            Place(file_.path, fmt::format("/skins/{}/inverseBindMatrices", skin)),
-                            fmt::format("matrix {} of skin {} (node {}) has determinant 0", i, skin,
-                                        source.joints[i]),
-                            "`--rest nodes` takes the pose in which the nodes stand");
+        report(codes::kBindSingular, skin, i, "has determinant 0");
+      else if (!is_affine(numbers))
+        report(codes::kNotAffine, skin, i, "has another last row than 0 0 0 1");
       matrices.push_back(math::inverse(inverse_bind));
     }
     place(skin, matrices);
@@ -89,6 +95,13 @@ class BindReader {
   std::map<int, Affine> take() { return std::move(bind_); }
 
  private:
+  void report(const Code& code, int skin, std::size_t matrix, const char* what) {
+    const int joint = slim_.skins[static_cast<std::size_t>(skin)].joints[matrix];
+    diagnostics_.report(code, Place(file_.path, fmt::format("/skins/{}/inverseBindMatrices", skin)),
+                        fmt::format("matrix {} of skin {} (node {}) {}", matrix, skin, joint, what),
+                        "`--rest nodes` takes the pose in which the nodes stand");
+  }
+
   void place(int skin, const std::vector<Affine>& matrices) {
     const std::vector<int>& joints = slim_.skins[static_cast<std::size_t>(skin)].joints;
     Affine space;

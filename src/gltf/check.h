@@ -4,6 +4,7 @@
 // tests/gltf/file_test.cpp
 #pragma once
 
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -43,6 +44,7 @@ class Check {
   const std::vector<AccessorFacts>& accessors() const { return accessors_; }
   const std::vector<ViewFacts>& views() const { return views_; }
   void report(const Code& code, const json::Value& at, std::string message, std::string hint = {});
+  void report(const Code& code, Place place, std::string message, std::string hint = {});
 
   /// An array of objects inside an object; missing is empty.
   std::vector<json::Value> objects(const json::Value& object, std::string_view key);
@@ -58,7 +60,8 @@ class Check {
                                    std::string_view array);
   /// One of some words; empty where it is missing or wrong.
   std::optional<std::string> word(const json::Value& object, std::string_view key,
-                                  const std::vector<std::string>& allowed, bool required = false);
+                                  std::initializer_list<std::string_view> allowed,
+                                  bool required = false);
 
   /// A value as an index into a top-level array.
   std::optional<std::size_t> in_range(const json::Value& value, std::string_view array);

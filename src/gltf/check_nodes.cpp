@@ -92,7 +92,7 @@ void check_skins(Check& check) {
     if (!accessor.is_real("MAT4"))
       check.report(codes::kSkinMatrices, skin["inverseBindMatrices"],
                    fmt::format("accessor {} is not of float MAT4", *matrices));
-    else if (accessor.count < static_cast<std::int64_t>(count))
+    else if (accessor.count >= 1 && accessor.count < static_cast<std::int64_t>(count))
       check.report(codes::kSkinMatrices, skin["inverseBindMatrices"],
                    fmt::format("{} matrices for {} joints", accessor.count, count));
   }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "base/text.h"
@@ -16,12 +17,26 @@
 namespace rigc::gltf {
 namespace {
 
-/// A pointer's target as a channel without a curve; nothing for what rigc does not animate.
-std::optional<anim::Channel> parse_pointer(const std::string& pointer, std::size_t node_count) {
+/// The node that a pointer leads into, as it is written; empty for other pointers.
+std::string_view node_step(std::string_view pointer) {
   const auto steps = split(pointer, '/');
-  if (steps.size() < 4 || !steps[0].empty() || steps[1] != "nodes") return std::nullopt;
-  const auto node = parse_integer(steps[2]);
-  if (!node || *node < 0 || static_cast<std::uint64_t>(*node) >= node_count) return std::nullopt;
+  return steps.size() > 2 && steps[1] == "nodes" ? steps[2] : std::string_view();
+}
+
+/// Whether a pointer leads to something that may exist: what is not in a node is not read.
+bool leads_somewhere(const std::optional<std::string>& pointer, std::size_t node_count) {
+  if (!pointer || !starts_with(*pointer, "/")) return false;
+  const std::string_view step = node_step(*pointer);
+  const auto node = parse_integer(step);
+  return step.empty() || (node && *node >= 0 && static_cast<std::uint64_t>(*node) < node_count);
+}
+
+/// The target of a pointer that leads somewhere, as a channel without a curve; nothing for what
+/// rigc does not animate.
+std::optional<anim::Channel> parse_pointer(const std::string& pointer) {
+  const auto steps = split(pointer, '/');
+  const auto node = parse_integer(node_step(pointer));
+  if (steps.size() < 4 || !node) return std::nullopt;
   anim::Channel channel;
   channel.node = static_cast<int>(*node);
   if (steps.size() == 5 && steps[3] == "extras") {
@@ -49,9 +64,10 @@ class ClipReader {
  public:
   ClipReader(const File& file, const Slim& slim, Diagnostics& diagnostics)
       : file_(file), slim_(slim), diagnostics_(diagnostics) {
-    // Samplers may share accessors, so that a small file can ask for any amount of memory.
+    // Samplers may share accessors, so that a small file can ask for any amount of memory. A number
+    // takes 4 bytes here, and between 1 and 4 in the file.
     budget_ = std::uint64_t{1} << 22;
-    for (const Buffer& buffer : file.buffers) budget_ += 4 * buffer.bytes.size();
+    for (const Buffer& buffer : file.buffers) budget_ += buffer.bytes.size() / 4 * 3;
   }
 
   ClipFile read() {
@@ -74,7 +90,7 @@ class ClipReader {
  private:
   /// What the channels of an animation that rigc understands drive, in the file's order.
   std::vector<anim::Channel> targets(const SlimAnimation& animation,
-                                     const std::vector<json::Value>& channels) const {
+                                     const std::vector<json::Value>& channels) {
     std::vector<anim::Channel> result;
     for (const SlimChannel& from : animation.channels) {
       anim::Channel channel;
@@ -89,8 +105,14 @@ class ClipReader {
     for (std::size_t i = 0; i < channels.size(); ++i) {
       const json::Value target = channels[i]["target"];
       if (target["path"].string() != "pointer") continue;
-      const json::Value extension = target["extensions"]["KHR_animation_pointer"];
-      auto channel = parse_pointer(extension["pointer"].string().value_or(""), slim_.nodes.size());
+      const auto pointer = target["extensions"]["KHR_animation_pointer"]["pointer"].string();
+      if (!leads_somewhere(pointer, slim_.nodes.size())) {
+        report(codes::kPointer, target,
+               fmt::format("\"{}\" leads to no node of the file",
+                           printable(pointer.value_or(""), 80)));
+        continue;
+      }
+      auto channel = parse_pointer(*pointer);
       if (!channel) continue;
       channel->source_channel = static_cast<int>(i);
       result.push_back(*std::move(channel));
@@ -113,15 +135,40 @@ class ClipReader {
     curve.width = width_of(channel.path);
     const std::uint64_t keys = slim_.accessors[static_cast<std::size_t>(sampler.input)].count;
     const std::uint64_t wanted = curve.interpolation == anim::Interpolation::cubic ? 3 : 1;
-    // Only pointers come here unfit: the checks know the types of the other paths.
-    if (output.width != curve.width || output.count / wanted != keys) return false;
+    // Only pointers come here unfit: the checks know the types of the other paths. What others
+    // animate in extras may have any width.
+    if (output.width != curve.width || output.count / wanted != keys) {
+      if (channel.path != anim::Path::attribute)
+        report(codes::kSampler, value,
+               fmt::format("accessor {} does not fit its target", sampler.output));
+      return false;
+    }
     curve.times = times(sampler.input);
     if (!curve.times || !spend(output.count * static_cast<std::uint64_t>(output.width), value))
       return false;
     auto values = read_floats(file_, slim_, sampler.output, output.count, diagnostics_);
     if (!values) return false;
     curve.values = *std::move(values);
+    return channel.path != anim::Path::rotation || check_rotations(curve, sampler.output);
+  }
+
+  /// Quaternions of length zero are no rotations; tangents are none either and may have it.
+  bool check_rotations(const anim::Curve& curve, int accessor) {
+    const bool cubic = curve.interpolation == anim::Interpolation::cubic;
+    const std::size_t stride = cubic ? 12 : 4;
+    for (std::size_t i = cubic ? 4 : 0; i + 4 <= curve.values.size(); i += stride) {
+      const float* q = curve.values.data() + i;
+      if (std::abs(q[0]) + std::abs(q[1]) + std::abs(q[2]) + std::abs(q[3]) > 1e-6f) continue;
+      diagnostics_.report(
+          codes::kZeroRotation, Place(file_.path, fmt::format("/accessors/{}", accessor)),
+          fmt::format("quaternion {} of accessor {} has length zero", i / stride, accessor));
+      return false;
+    }
     return true;
+  }
+
+  void report(const Code& code, const json::Value& at, std::string message) {
+    diagnostics_.report(code, Place(file_.path, at.pointer()), std::move(message));
   }
 
   bool spend(std::uint64_t numbers, const json::Value& channel) {
@@ -130,8 +177,8 @@ class ClipReader {
       return true;
     }
     if (!overspent_)
-      diagnostics_.report(codes::kNoData, Place(file_.path, channel.pointer()),
-                          "the animations share so much data that they do not fit into memory");
+      report(codes::kNoData, channel,
+             "the animations share so much data that they do not fit into memory");
     overspent_ = true;
     return false;
   }

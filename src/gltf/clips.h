@@ -22,13 +22,23 @@ struct ClipFile {
 };
 std::optional<ClipFile> read_clips(const File& file, Diagnostics& diagnostics);
 
-/// Changes animation `clip.source_animation` of the file (or appends one where it is -1): channels
-/// with the target of one that the clip brings, and those whose index is in `dropped_channels`, go;
-/// the clip's channels come; everything else stays, with its samplers at their index. Equal times
-/// are written once. An animation that is left without channels becomes a placeholder, because
-/// others may have its index.
-void write_clip(Patch& patch, const File& file, const anim::Clip& clip,
-                const std::vector<int>& dropped_channels);
+/// What becomes of animation `clip.source_animation` of a file (-1: a new one): channels with the
+/// target of one that the clip brings, and those whose index is in `dropped_channels`, go; the
+/// clip's channels come; everything else stays, with its samplers at their index.
+struct ClipChange {
+  anim::Clip clip;
+  std::vector<int> dropped_channels;
+};
+
+/// Changes animations. Accessors that only channels used that go are released first, so that the
+/// new ones take their places; equal times are written once. A node with a matrix that gets a
+/// channel has the equal translation, rotation and scale from then on. An animation that is left
+/// without channels becomes a placeholder, because others may have its index.
+void write_clips(Patch& patch, const File& file, const std::vector<ClipChange>& changes);
+inline void write_clip(Patch& patch, const File& file, const anim::Clip& clip,
+                       const std::vector<int>& dropped_channels) {
+  write_clips(patch, file, {{clip, dropped_channels}});
+}
 
 /// `extras.rigc` of a channel that a bake made.
 inline constexpr std::string_view kBakedMark = "baked";

@@ -104,11 +104,44 @@ inline constexpr Code kRest{
     685, Severity::error, "unknown rest pose",
     "The rest pose is `bind`, `nodes`, or the name of a clip and a time: `CLIP@SECONDS`."};
 
+// What the rest of the file says about them.
+inline constexpr Code kNotAffine{
+    690, Severity::error, "inverse bind matrix is not affine",
+    "The last row of an inverse bind matrix is 0 0 0 1. Repair the skin, or build with `--rest "
+    "nodes`."};
+inline constexpr Code kRestUndefined{
+    691, Severity::error, "rest pose of a joint is not defined",
+    "Where a joint rests cannot be computed: a node above the skeleton has scale 0, or numbers are "
+    "too large. Repair the nodes above it."};
+inline constexpr Code kPointer{
+    692, Severity::error, "animation pointer to nowhere",
+    "A channel of KHR_animation_pointer names its target by a JSON pointer, and the node that it "
+    "names must exist."};
+inline constexpr Code kTooMany{
+    693, Severity::error, "absurd number of elements",
+    "The file has so many nodes, accessors or the like in so few bytes that reading them would "
+    "take "
+    "memory out of proportion. It is damaged or made to do harm."};
+inline constexpr Code kBufferNotFile{
+    694, Severity::error, "buffer is no file",
+    "The buffer's URI names a folder, a device, a FIFO or a socket. Only regular files are read."};
+
+// Files beside the output.
+inline constexpr Code kCopyClash{
+    686, Severity::error, "another file is in the way",
+    "The model names a file, an image or a buffer, that has to lie beside the output too; a file "
+    "with other content lies there already and is not replaced."};
+inline constexpr Code kNotCopied{
+    687, Severity::warning, "file is not copied",
+    "The model names a file that cannot be copied beside the output: it does not exist, or it lies "
+    "outside the model's folder. The output names it as the model does."};
+
 inline constexpr const Code* kGltfCodes[] = {
     &kGlbHeader,     &kGlbChunk,  &kGlbTooLarge,   &kChunksLost,  &kAssetVersion, &kWrongType,
     &kMissing,       &kIndex,     &kValue,         &kTwoParents,  &kNodeCycle,    &kTransform,
     &kZeroRotation,  &kBufferUri, &kBufferEscapes, &kBufferShort, &kViewRange,    &kStride,
     &kAccessorRange, &kSparse,    &kNoData,        &kNotFinite,   &kSkinJoints,   &kSkinMatrices,
-    &kBindSingular,  &kSampler,   &kTimes,         &kReader,      &kRest};
+    &kBindSingular,  &kSampler,   &kTimes,         &kReader,      &kRest,         &kCopyClash,
+    &kNotCopied,     &kNotAffine, &kRestUndefined, &kPointer,     &kTooMany,      &kBufferNotFile};
 
 }  // namespace rigc::gltf::codes

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "base/text.h"
 #include "gltf/codes.h"
 
 namespace rigc::gltf {
@@ -13,82 +12,94 @@ namespace {
 
 constexpr std::uint32_t kJson = 0x4e4f534a;
 constexpr std::uint32_t kBin = 0x004e4942;
+/// Each costs a call of the system; real files have two or three.
+constexpr std::size_t kMostChunks = 1000;
 
-std::uint32_t uint32_at(std::string_view bytes, std::size_t at) {
+std::uint32_t uint32_at(const char* bytes) {
   std::uint32_t value = 0;
-  for (std::size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+  for (std::size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[i]);
   return value;
 }
 
-bool fail(const Code& code, const std::string& path, std::size_t at, std::string message,
-          Diagnostics& diagnostics) {
-  diagnostics.report(code, Place::at_byte(path, at), std::move(message));
-  return false;
-}
+/// What reading a container needs everywhere.
+struct Input {
+  const Bytes& whole;
+  const std::string& path;
+  Diagnostics& diagnostics;
 
-bool read_header(std::string_view whole, const std::string& path, Diagnostics& diagnostics) {
-  if (whole.size() < 12)
-    return fail(codes::kGlbHeader, path, 0, "the file ends inside its header", diagnostics);
-  const std::uint32_t version = uint32_at(whole, 4);
+  bool fail(const Code& code, std::size_t at, std::string message) const {
+    diagnostics.report(code, Place::at_byte(path, at), std::move(message));
+    return false;
+  }
+};
+
+bool read_header(const Input& input) {
+  const std::uint64_t size = input.whole.size();
+  char header[12];
+  if (size < sizeof header)
+    return input.fail(codes::kGlbHeader, 0, "the file ends inside its header");
+  if (!input.whole.read(0, sizeof header, header, input.diagnostics)) return false;
+  const std::uint32_t version = uint32_at(header + 4);
   if (version != 2)
-    return fail(codes::kGlbHeader, path, 4, fmt::format("a .glb of version {}, not 2", version),
-                diagnostics);
-  const std::uint32_t length = uint32_at(whole, 8);
-  if (length != whole.size())
-    return fail(codes::kGlbHeader, path, 8,
-                fmt::format("the header says {} bytes, the file has {}", length, whole.size()),
-                diagnostics);
+    return input.fail(codes::kGlbHeader, 4, fmt::format("a .glb of version {}, not 2", version));
+  const std::uint32_t length = uint32_at(header + 8);
+  if (length != size)
+    return input.fail(codes::kGlbHeader, 8,
+                      fmt::format("the header says {} bytes, the file has {}", length, size));
   return true;
 }
 
-/// Puts one chunk where it belongs; `number` counts from 0.
-bool take_chunk(Container& container, std::string_view whole, std::size_t at, std::size_t number,
-                const std::string& path, Diagnostics& diagnostics) {
-  const std::uint32_t length = uint32_at(whole, at);
-  const std::uint32_t type = uint32_at(whole, at + 4);
-  const std::string_view bytes = whole.substr(at + 8, length);
+/// Reads the chunk at `at`, puts it where it belongs and moves `at` behind it; `number` counts from
+/// 0.
+bool take_chunk(Container& container, const Input& input, std::uint64_t& at, std::size_t number) {
+  const std::uint64_t rest = input.whole.size() - at;
+  char header[8] = {};
+  const bool has_header = rest >= sizeof header;
+  if (has_header && !input.whole.read(at, sizeof header, header, input.diagnostics)) return false;
+  const std::uint32_t length = uint32_at(header), type = uint32_at(header + 4);
+  if (length % 4 != 0)
+    return input.fail(codes::kGlbChunk, at,
+                      fmt::format("the chunk's {} bytes are no multiple of 4", length));
+  if (!has_header || length > rest - sizeof header)
+    return input.fail(codes::kGlbChunk, at, "the chunk reaches beyond the end of the file");
   if ((type == kJson) != (number == 0))
-    return fail(codes::kGlbChunk, path, at,
-                number == 0 ? "the first chunk is not JSON" : "a second JSON chunk", diagnostics);
+    return input.fail(codes::kGlbChunk, at,
+                      number == 0 ? "the first chunk is not JSON" : "a second JSON chunk");
   if (type == kBin && number != 1)
-    return fail(codes::kGlbChunk, path, at, "a BIN chunk that is not the second chunk",
-                diagnostics);
+    return input.fail(codes::kGlbChunk, at, "a BIN chunk that is not the second chunk");
+  if (number == kMostChunks)
+    return input.fail(codes::kGlbChunk, at, fmt::format("more than {} chunks", kMostChunks));
+  const Bytes bytes = input.whole.part(at + sizeof header, length);
   if (type == kJson) {
     container.json = bytes;
-    container.json_offset = at + 8;
+    container.json_offset = at + sizeof header;
   } else if (type == kBin) {
     container.bin = bytes;
   } else {
-    container.other_chunks.push_back(whole.substr(at, std::size_t{8} + length));
+    container.other_chunks.push_back(input.whole.part(at, sizeof header + length));
   }
+  at += sizeof header + length;
   return true;
 }
 
 }  // namespace
 
-std::optional<Container> read_container(std::string_view whole, const std::string& path,
+std::optional<Container> read_container(const Bytes& whole, const std::string& path,
                                         Diagnostics& diagnostics) {
+  const Input input{whole, path, diagnostics};
   Container container;
-  container.binary = starts_with(whole, "glTF");
+  char magic[4] = {};
+  if (whole.size() >= sizeof magic && !whole.read(0, sizeof magic, magic, diagnostics))
+    return std::nullopt;
+  container.binary = std::string_view(magic, sizeof magic) == "glTF";
   container.json = whole;
   if (!container.binary) return container;
-  if (!read_header(whole, path, diagnostics)) return std::nullopt;
+  if (!read_header(input)) return std::nullopt;
   std::size_t number = 0;
-  for (std::size_t at = 12; at < whole.size(); ++number) {
-    const bool has_header = whole.size() - at >= 8;
-    const std::uint32_t length = has_header ? uint32_at(whole, at) : 0;
-    if (!has_header || length > whole.size() - at - 8 || length % 4 != 0) {
-      fail(codes::kGlbChunk, path, at,
-           length % 4 != 0 ? fmt::format("the chunk's {} bytes are no multiple of 4", length)
-                           : "the chunk reaches beyond the end of the file",
-           diagnostics);
-      return std::nullopt;
-    }
-    if (!take_chunk(container, whole, at, number, path, diagnostics)) return std::nullopt;
-    at += std::size_t{8} + length;
-  }
+  for (std::uint64_t at = 12; at < whole.size(); ++number)
+    if (!take_chunk(container, input, at, number)) return std::nullopt;
   if (number == 0) {
-    fail(codes::kGlbChunk, path, 12, "the file has no chunks", diagnostics);
+    input.fail(codes::kGlbChunk, 12, "the file has no chunks");
     return std::nullopt;
   }
   return container;

@@ -4,24 +4,23 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "base/diagnostics.h"
+#include "base/bytes.h"
 
 namespace rigc::gltf {
 
-/// Views into the file's bytes.
+/// Parts of the file's bytes.
 struct Container {
   bool binary = false;
-  std::string_view json;
-  std::size_t json_offset = 0;  ///< of `json` in the file
-  std::string_view bin;         ///< with its padding; data() is null without a BIN chunk
-  std::vector<std::string_view> other_chunks;  ///< header and bytes
+  Bytes json;
+  std::size_t json_offset = 0;      ///< of `json` in the file
+  std::optional<Bytes> bin;         ///< with its padding
+  std::vector<Bytes> other_chunks;  ///< header and bytes
 };
 
 /// A file that begins with `glTF` is binary, every other one is JSON, whatever it is called.
-std::optional<Container> read_container(std::string_view whole, const std::string& path,
+std::optional<Container> read_container(const Bytes& whole, const std::string& path,
                                         Diagnostics& diagnostics);
 
 }  // namespace rigc::gltf

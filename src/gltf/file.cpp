@@ -8,6 +8,7 @@
 #include <cassert>
 #include <map>
 
+#include "base/codes.h"
 #include "base/text.h"
 #include "gltf/check.h"
 #include "gltf/codes.h"
@@ -30,12 +31,11 @@ class BufferLoader {
     const auto length = static_cast<std::uint64_t>(value["byteLength"].integer().value_or(0));
     if (value["uri"]) {
       buffer.uri = value["uri"].string().value_or("");
-      buffer.storage = read_uri(buffer.uri);
-      if (!buffer.storage) return;
-      buffer.bytes = *buffer.storage;
-    } else if (index == 0 && file_.bin.data()) {
-      buffer.storage = file_.whole;
-      buffer.bytes = file_.bin;
+      auto bytes = read_uri(buffer.uri);
+      if (!bytes) return;
+      buffer.bytes = *std::move(bytes);
+    } else if (index == 0 && file_.bin) {
+      buffer.bytes = *file_.bin;
     } else {
       return;
     }
@@ -43,22 +43,22 @@ class BufferLoader {
       report(codes::kBufferShort,
              fmt::format("buffer {} has {} bytes of {}", index, buffer.bytes.size(), length));
     else
-      buffer.bytes = buffer.bytes.substr(0, length);
+      buffer.bytes = buffer.bytes.part(0, length);
   }
 
  private:
-  Bytes report(const Code& code, std::string message) {
+  std::nullopt_t report(const Code& code, std::string message) {
     diagnostics_.report(code, Place(file_.path, fmt::format("/buffers/{}", index_)),
                         std::move(message));
-    return nullptr;
+    return std::nullopt;
   }
 
-  /// The bytes that a URI names; null where that was reported.
-  Bytes read_uri(const std::string& uri) {
+  /// The bytes that a URI names; nothing where that was reported.
+  std::optional<Bytes> read_uri(const std::string& uri) {
     if (is_data_uri(uri)) {
       auto bytes = data_uri_bytes(uri);
       if (!bytes) return report(codes::kBufferUri, "the data URI is broken");
-      return std::make_shared<const std::string>(*std::move(bytes));
+      return Bytes(*std::move(bytes));
     }
     const auto name = percent_decoded(uri);
     if (!name || name->empty() || is_absolute_uri(uri))
@@ -68,34 +68,55 @@ class BufferLoader {
     if (!path)
       return report(codes::kBufferEscapes,
                     fmt::format("\"{}\" leaves the folder of the file", printable(*name, 80)));
-    Bytes& known = read_[*path];
-    if (known) return known;
-    if (auto bytes = read_file(*path, kLargest, diagnostics_))
-      known = std::make_shared<const std::string>(*std::move(bytes));
-    return known;
+    auto [known, is_new] = read_.try_emplace(*path);
+    if (is_new) known->second = open_file(*path, *name);
+    return known->second;
+  }
+
+  /// What is wrong with a buffer's file is said of the buffer: people look for it in the model.
+  std::optional<Bytes> open_file(const std::string& path, const std::string& name) {
+    Diagnostics opening;
+    auto bytes = Bytes::open(path, kLargest, opening);
+    for (const Diagnostic& wrong : opening.all()) {
+      const bool special = wrong.code == &rigc::codes::kNotRegularFile;
+      report(special ? codes::kBufferNotFile : *wrong.code,
+             fmt::format("\"{}\": {}", printable(name, 80), wrong.message));
+    }
+    return bytes;
   }
 
   File& file_;
   Diagnostics& diagnostics_;
   std::size_t index_ = 0;
-  std::map<std::string, Bytes> read_;  ///< by resolved path
+  std::map<std::string, std::optional<Bytes>> read_;  ///< by resolved path
 };
 
 }  // namespace
 
 std::optional<File> open(const std::string& path, Diagnostics& diagnostics) {
-  const std::size_t errors = diagnostics.errors();
-  auto bytes = read_file(path, kLargest, diagnostics);
+  auto bytes = Bytes::open(path, kLargest, diagnostics);
   if (!bytes) return std::nullopt;
+  return open(path, *std::move(bytes), diagnostics);
+}
+
+std::optional<File> open(const std::string& path, Bytes bytes, Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.errors();
   File file;
   file.path = path;
-  file.whole = std::make_shared<const std::string>(*std::move(bytes));
-  const auto container = read_container(*file.whole, path, diagnostics);
+  file.whole = std::move(bytes);
+  auto container = read_container(file.whole, path, diagnostics);
   if (!container) return std::nullopt;
   file.binary = container->binary;
-  file.bin = container->bin;
-  file.other_chunks = container->other_chunks;
-  auto json = json::parse(std::string(container->json), path, container->json_offset, diagnostics);
+  file.bin = std::move(container->bin);
+  file.other_chunks = std::move(container->other_chunks);
+  if (container->json.size() > json::kMostBytes) {
+    diagnostics.report(rigc::codes::kJsonTooLarge, Place::at_byte(path, container->json_offset),
+                       fmt::format("{} bytes of JSON", container->json.size()));
+    return std::nullopt;
+  }
+  auto text = container->json.text(diagnostics);
+  if (!text) return std::nullopt;
+  auto json = json::parse(*std::move(text), path, container->json_offset, diagnostics);
   if (!json) return std::nullopt;
   file.json = *std::move(json);
   check(file, diagnostics);
@@ -113,7 +134,7 @@ File empty_file() {
       R"({"asset":{"version":"2.0","generator":"rigc"},"scene":0,"scenes":[{}]})";
   Diagnostics none;
   File file;
-  file.whole = std::make_shared<const std::string>(text);
+  file.whole = Bytes(std::string(text));
   auto json = json::parse(text, "", 0, none);
   assert(json);
   file.json = *std::move(json);

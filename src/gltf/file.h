@@ -5,7 +5,6 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/diagnostics.h"
@@ -16,10 +15,8 @@ namespace rigc::gltf {
 
 /// One buffer of the file: bytes of BIN, of another file, or of a data URI.
 struct Buffer {
-  Bytes storage;
-  std::string_view bytes;  ///< into storage; byteLength long; empty for a buffer that an extension
-                           ///< leaves unfilled
-  std::string uri;         ///< as written; empty for BIN
+  Bytes bytes;      ///< byteLength long; empty for a buffer that an extension leaves unfilled
+  std::string uri;  ///< as written; empty for BIN
 };
 
 struct File {
@@ -27,8 +24,8 @@ struct File {
   bool binary = false;  ///< .glb
   Bytes whole;          ///< the file's bytes
   json::Document json;
-  std::string_view bin;                        ///< BIN chunk's bytes (with padding), into whole
-  std::vector<std::string_view> other_chunks;  ///< header and bytes of chunks after BIN, into whole
+  std::optional<Bytes> bin;         ///< BIN chunk's bytes with padding, part of whole
+  std::vector<Bytes> other_chunks;  ///< header and bytes of chunks after BIN, parts of whole
   std::vector<Buffer> buffers;
 
   json::Value root() const { return json.root(); }
@@ -38,6 +35,10 @@ struct File {
 /// parent) and buffers. Everything that later stages rely on is checked here or in their own
 /// readers.
 std::optional<File> open(const std::string& path, Diagnostics& diagnostics);
+
+/// The same for bytes in memory; `path` is what messages call them and where their buffers are
+/// looked for.
+std::optional<File> open(const std::string& path, Bytes bytes, Diagnostics& diagnostics);
 
 /// An empty file to write a rig into where there is no model: asset, scene 0.
 File empty_file();

@@ -1,80 +1,47 @@
 // SPDX-License-Identifier: MIT
-// Gathers changes to a file by element; patch_finish.cpp writes them.
-// Test: tests/gltf/patch_test.cpp
+// Gathers changes to a file by element; patch_members.cpp those inside of elements and of the root,
+// patch_finish.cpp writes them. Test: tests/gltf/patch_test.cpp
 #include "gltf/patch.h"
 
 #include <algorithm>
 #include <cassert>
 
+#include "base/text.h"
 #include "gltf/patch_state.h"
 #include "gltf/splice.h"
 
 namespace rigc::gltf {
 namespace {
 
-constexpr std::string_view kMark = R"("extras":{"rigc":{"free":true}})";
-
-/// An element that nothing uses any more but whose index must stay. `first` and `second` are
-/// accessors of ours that only placeholders use; one accessor must not serve for two purposes.
-std::string placeholder(std::string_view array, int first, int second) {
-  std::string text;
-  if (array == "meshes")
-    text = R"("primitives":[{"mode":0,"attributes":{"POSITION":)" + std::to_string(first) + "}}],";
-  if (array == "skins") text = R"("joints":[0],)";
-  if (array == "accessors") text = R"("componentType":5126,"count":1,"type":"SCALAR",)";
-  if (array == "bufferViews") text = R"("buffer":0,"byteLength":1,)";
-  if (array == "animations")
-    text = R"("channels":[{"sampler":0,"target":{"path":"weights"}}],"samplers":[{"input":)" +
-           std::to_string(first) + R"(,"output":)" + std::to_string(second) + "}],";
-  return "{" + text + std::string(kMark) + "}";
-}
-
-/// An accessor of one element, all zeros, without bytes.
-std::string zero_accessor(std::string_view type, std::string_view zeros) {
-  json::Writer writer;
-  writer.begin_object().member("componentType", 5126).member("count", 1).member("type", type);
-  writer.key("min").raw(zeros).key("max").raw(zeros).end_object();
-  std::string text = writer.take();
-  text.pop_back();
-  return text + "," + std::string(kMark) + "}";
-}
-
-std::string child_list(const std::string& list, int child) {
-  if (list.empty()) return "[" + std::to_string(child) + "]";
-  Diagnostics none;
-  const auto document = json::parse(list, "", 0, none);
-  assert(document);
-  Splice splice(document->root());
-  splice.append(std::to_string(child));
-  return splice.text();
-}
-
-/// The list without every mention of `child`; empty where nothing is left.
-std::string without_child(const std::string& list, int child) {
-  Diagnostics none;
-  const auto document = json::parse(list, "", 0, none);
-  assert(document);
-  Splice splice(document->root());
-  const auto items = document->root().items();
-  for (std::size_t i = items.size(); i-- > 0;)
-    if (items[i].integer() == child) splice.erase(i);
-  return splice.size() == 0 ? std::string() : splice.text();
-}
-
-/// Text of a member of the object `text`, empty where it is missing.
-std::string member_of(const std::string& text, std::string_view key) {
-  Diagnostics none;
-  const auto document = json::parse(text, "", 0, none);
-  assert(document);
-  return std::string(document->root()[key].text());
+/// Nodes that something in the file names.
+std::vector<bool> named_nodes(const File& file, std::size_t count) {
+  std::vector<bool> named(count, false);
+  const auto name = [&](const json::Value& value) {
+    const auto index = value.integer().value_or(-1);
+    if (index >= 0 && index < static_cast<std::int64_t>(count))
+      named[static_cast<std::size_t>(index)] = true;
+  };
+  const json::Value root = file.root();
+  for (const json::Value& node : root["nodes"].items())
+    for (const json::Value& child : node["children"].items()) name(child);
+  for (const json::Value& scene : root["scenes"].items())
+    for (const json::Value& node : scene["nodes"].items()) name(node);
+  for (const json::Value& skin : root["skins"].items()) {
+    name(skin["skeleton"]);
+    for (const json::Value& joint : skin["joints"].items()) name(joint);
+  }
+  for (const json::Value& animation : root["animations"].items())
+    for (const json::Value& channel : animation["channels"].items())
+      name(channel["target"]["node"]);
+  return named;
 }
 
 }  // namespace
 
-std::string ArrayChanges::text(std::size_t index) const {
+std::string_view ArrayChanges::text(std::size_t index) const {
   if (index >= kept) return appended[index - kept];
   const auto found = changed.find(index);
-  return found != changed.end() ? found->second : std::string(original[index].text());
+  return found != changed.end() ? found->second : original[index].text();
 }
 
 void ArrayChanges::set(std::size_t index, std::string json) {
@@ -84,6 +51,40 @@ void ArrayChanges::set(std::size_t index, std::string json) {
     changed.erase(index);
   else
     changed[index] = std::move(json);
+}
+
+void ArrayChanges::truncate(std::size_t size) {
+  appended.resize(size > kept ? size - kept : 0);
+  kept = std::min(kept, size);
+  changed.erase(changed.lower_bound(kept), changed.end());
+  free.erase(free.lower_bound(size), free.end());
+}
+
+void ArrayChanges::cut_tail() {
+  std::size_t end = size();
+  while (end > 0 && free.count(end - 1)) --end;
+  if (end < size()) truncate(end);
+}
+
+Patch::State::State(const File& the_file) : file(the_file) {
+  const json::Value known = file.root()["extensions"]["RIGC_rig"]["before"];
+  const auto set_length = [&](const json::Value& value) {
+    before.length =
+        static_cast<std::uint64_t>(std::max<std::int64_t>(value.integer().value_or(0), 0));
+    if (before.length > 0) before.byte_length = value.text();
+  };
+  if (known.is_object()) {
+    set_length(known["byteLength"]);
+    if (known["bin"]) before.bin = unsigned_member(known, "bin");
+    before.scenes = known["scenes"].boolean().value_or(true);
+    for (const json::Value& pointer : known["empty"].items())
+      before.empty.insert(pointer.string().value_or(""));
+    return;
+  }
+  const auto buffers = file.root()["buffers"].items();
+  if (!buffers.empty()) set_length(buffers[0]["byteLength"]);
+  if (file.bin) before.bin = file.bin->size();
+  before.scenes = static_cast<bool>(file.root()["scenes"]);
 }
 
 ArrayChanges& Patch::State::array(std::string_view name) {
@@ -101,39 +102,56 @@ const ArrayChanges* Patch::State::find(std::string_view name) const {
   return nullptr;
 }
 
-std::string Patch::State::member(std::string_view name) const {
-  for (const auto& [key, text] : members)
-    if (key == name) return text;
-  return std::string(file.root()[name].text());
+ArrayChanges& Patch::State::slots(std::string_view name) {
+  ArrayChanges& changes = array(name);
+  if (changes.has_slots) return changes;
+  changes.has_slots = true;
+  for (std::size_t i = 0; i < changes.kept; ++i)
+    if (is_placeholder(name, changes.text(i))) changes.free.insert(i);
+  if (name == "nodes" && !changes.free.empty()) {
+    const std::vector<bool> named = named_nodes(file, changes.original.size());
+    std::erase_if(changes.free, [&](std::size_t i) { return named[i]; });
+  }
+  if (name == "bufferViews")
+    for (const std::size_t view : changes.free) release_bytes(view);
+  return changes;
 }
 
-std::string_view Patch::State::original_extras(int node) const {
-  const ArrayChanges* nodes = find("nodes");
-  const auto index = static_cast<std::size_t>(node);
-  if (!nodes || index >= nodes->original.size()) return {};
-  return nodes->original[index]["extras"].text();
-}
-
-void Patch::State::set_member(std::string_view name, std::string json) {
-  for (auto& [key, text] : members) {
-    if (key != name) continue;
-    text = std::move(json);
+void Patch::State::release_bytes(std::size_t view) {
+  const auto pending = std::find_if(views.begin(), views.end(), [&](const PendingView& other) {
+    return other.index == static_cast<int>(view);
+  });
+  if (pending != views.end()) {
+    views.erase(pending);
     return;
   }
-  members.emplace_back(std::string(name), std::move(json));
+  const ArrayChanges& changes = array("bufferViews");
+  if (view >= changes.kept || changes.text(view) == placeholder("bufferViews")) return;
+  const json::Value& value = changes.original[view];
+  const std::uint64_t begin = unsigned_member(value, "byteOffset");
+  free_bytes[static_cast<std::size_t>(unsigned_member(value, "buffer"))].push_back(
+      {begin, begin + unsigned_member(value, "byteLength")});
 }
 
 Patch::Patch(const File& file) : file_(file), state_(std::make_shared<State>(file)) {}
 
 int Patch::append(std::string_view array, std::string json) {
-  ArrayChanges& changes = state_->array(array);
-  changes.appended.push_back(std::move(json));
-  return static_cast<int>(changes.size()) - 1;
+  ArrayChanges& changes = state_->slots(array);
+  std::size_t index = changes.size();
+  if (!changes.free.empty()) {
+    index = *changes.free.begin();
+    changes.free.erase(changes.free.begin());
+    changes.set(index, std::move(json));
+  } else {
+    if (index == 0) state_->fills("/" + std::string(array), file_.root()[array].text());
+    changes.appended.push_back(std::move(json));
+  }
+  changes.given.push_back(static_cast<int>(index));
+  return changes.given.back();
 }
 
 int Patch::append_view(std::string_view data, int target) {
   State& state = *state_;
-  state.data.resize((state.data.size() + 3) / 4 * 4, '\0');
   PendingView view;
   view.offset = state.data.size();
   view.length = data.size();
@@ -162,148 +180,33 @@ int Patch::count(std::string_view array) const {
   return static_cast<int>(file_.root()[array].size());
 }
 
-std::string Patch::element(std::string_view array, int index) const {
-  assert(index >= 0 && index < count(array));
-  return state_->array(array).text(static_cast<std::size_t>(index));
+std::vector<int> Patch::given(std::string_view array) const {
+  const ArrayChanges* changes = state_->find(array);
+  return changes ? changes->given : std::vector<int>();
 }
 
-int Patch::State::zeros(std::string_view purpose) {
-  for (const auto& [name, index] : zero_accessors)
-    if (name == purpose) return index;
-  ArrayChanges& accessors = array("accessors");
-  accessors.appended.push_back(purpose == "position" ? zero_accessor("VEC3", "[0,0,0]")
-                                                     : zero_accessor("SCALAR", "[0]"));
-  zero_accessors.emplace_back(purpose, static_cast<int>(accessors.size()) - 1);
-  return zero_accessors.back().second;
+std::string Patch::element(std::string_view array, int index) const {
+  assert(index >= 0 && index < count(array));
+  return std::string(state_->array(array).text(static_cast<std::size_t>(index)));
 }
 
 void Patch::replace(std::string_view array, int index, std::string json) {
   assert(index >= 0 && index < count(array));
-  if (json.empty()) {
-    int first = 0, second = 0;
-    if (array == "meshes") first = state_->zeros("position");
-    if (array == "animations") {
-      first = state_->zeros("input");
-      second = state_->zeros("output");
-    }
-    json = placeholder(array, first, second);
-  }
+  if (json.empty()) json = state_->new_placeholder(array);
   state_->array(array).set(static_cast<std::size_t>(index), std::move(json));
 }
 
+void Patch::release(std::string_view array, int index) {
+  ArrayChanges& changes = state_->slots(array);
+  const auto at = static_cast<std::size_t>(index);
+  if (at >= changes.size() || changes.free.count(at)) return;
+  if (array == "bufferViews") state_->release_bytes(at);
+  changes.free.insert(at);
+  changes.cut_tail();
+}
+
 void Patch::truncate(std::string_view array, int size) {
-  if (size >= count(array)) return;
-  ArrayChanges& changes = state_->array(array);
-  const auto keep = static_cast<std::size_t>(size);
-  changes.appended.resize(keep > changes.kept ? keep - changes.kept : 0);
-  changes.kept = std::min(changes.kept, keep);
-  changes.changed.erase(changes.changed.lower_bound(keep), changes.changed.end());
-  if (array == "accessors")
-    std::erase_if(state_->zero_accessors, [&](const auto& entry) { return entry.second >= size; });
-  if (array == "bufferViews")
-    std::erase_if(state_->views, [&](const PendingView& view) { return view.index >= size; });
-}
-
-void Patch::truncate_buffer(std::uint64_t byte_length) { state_->buffer_length = byte_length; }
-
-std::uint64_t Patch::buffer_length() const {
-  if (state_->buffer_length) return *state_->buffer_length;
-  const auto buffers = file_.root()["buffers"].items();
-  if (buffers.empty()) return 0;
-  return static_cast<std::uint64_t>(buffers[0]["byteLength"].integer().value_or(0));
-}
-
-void Patch::set_member(std::string_view array, int index, std::string_view member,
-                       std::string json) {
-  const std::string now = element(array, index);
-  state_->array(array).set(static_cast<std::size_t>(index),
-                           with_member(now, member, std::move(json)));
-}
-
-void Patch::add_child(int node, int child) {
-  if (node >= 0) {
-    const std::string list = member_of(element("nodes", node), "children");
-    set_member("nodes", node, "children", child_list(list, child));
-    return;
-  }
-  if (count("scenes") == 0) {
-    append("scenes", "{}");
-    state_->set_member("scene", "0");
-  }
-  const int scene = static_cast<int>(file_.root()["scene"].integer().value_or(0));
-  const std::string list = member_of(element("scenes", scene), "nodes");
-  set_member("scenes", scene, "nodes", child_list(list, child));
-}
-
-void Patch::remove_child(int node, int child) {
-  const std::string_view array = node >= 0 ? "nodes" : "scenes";
-  const std::string_view member = node >= 0 ? "children" : "nodes";
-  const int first = node >= 0 ? node : 0;
-  const int last = node >= 0 ? node : count("scenes") - 1;
-  for (int i = first; i <= last; ++i) {
-    const std::string list = member_of(element(array, i), member);
-    if (list.empty()) continue;
-    const std::string rest = without_child(list, child);
-    if (rest != list) set_member(array, i, member, rest);
-  }
-}
-
-void Patch::set_extra(int node, std::string_view key, std::string json) {
-  const std::string extras = member_of(element("nodes", node), "extras");
-  if (extras.empty()) {
-    if (json.empty()) return;
-    set_member("nodes", node, "extras", "{" + json::quote(key) + ":" + json + "}");
-    return;
-  }
-  if (extras.front() != '{') return;
-  std::string changed = with_member(extras, key, std::move(json));
-  if (changed == extras) return;
-  if (is_empty_container(changed) && !is_empty_container(state_->original_extras(node)))
-    changed.clear();
-  set_member("nodes", node, "extras", std::move(changed));
-}
-
-std::string Patch::root_extension(std::string_view name) const {
-  const std::string extensions = state_->member("extensions");
-  return extensions.empty() ? std::string() : member_of(extensions, name);
-}
-
-void Patch::set_root_extension(std::string_view name, std::string json) {
-  const std::string extensions = state_->member("extensions");
-  const bool removes = json.empty();
-  if (extensions.empty() && removes) return drop_extension(name);
-  std::string changed = with_member(extensions.empty() ? "{}" : extensions, name, std::move(json));
-  if (removes && is_empty_container(changed) &&
-      !is_empty_container(file_.root()["extensions"].text()))
-    changed.clear();
-  state_->set_member("extensions", std::move(changed));
-  removes ? drop_extension(name) : use_extension(name);
-}
-
-void Patch::use_extension(std::string_view name) {
-  const std::string used = state_->member("extensionsUsed");
-  if (used.empty()) return state_->set_member("extensionsUsed", "[" + json::quote(name) + "]");
-  Diagnostics none;
-  const auto document = json::parse(used, "", 0, none);
-  assert(document);
-  for (const json::Value& entry : document->root().items())
-    if (entry.string() == name) return;
-  Splice splice(document->root());
-  splice.append(json::quote(name));
-  state_->set_member("extensionsUsed", splice.text());
-}
-
-void Patch::drop_extension(std::string_view name) {
-  const std::string used = state_->member("extensionsUsed");
-  if (used.empty()) return;
-  Diagnostics none;
-  const auto document = json::parse(used, "", 0, none);
-  assert(document);
-  Splice splice(document->root());
-  const auto entries = document->root().items();
-  for (std::size_t i = entries.size(); i-- > 0;)
-    if (entries[i].string() == name) splice.erase(i);
-  state_->set_member("extensionsUsed", splice.size() == 0 ? std::string() : splice.text());
+  for (int i = count(array); i-- > size;) release(array, i);
 }
 
 }  // namespace rigc::gltf

@@ -37,18 +37,12 @@ struct NewAccessor {
 /// A file that must stand beside the output, written and flushed before it.
 struct ExtraFile {
   std::string name;  ///< by content: `rigc_0123456789abcdef.bin`
-  std::string bytes;
+  Bytes bytes;
 };
 
-/// A finished file, as pieces to write one after another; views stay valid as long as this and the
-/// File.
+/// A finished file, as pieces to write one after another.
 struct Output {
-  Output() = default;
-  Output(Output&&) = default;
-  Output& operator=(Output&&) = default;
-
-  std::vector<std::string_view> pieces;
-  std::vector<std::string> owned;  ///< complete before pieces view into it
+  std::vector<Bytes> pieces;
   std::vector<ExtraFile> extra_files;
   std::vector<std::string>
       copies;              ///< files beside the input that the output refers to, relative paths
@@ -60,16 +54,19 @@ class Patch {
  public:
   explicit Patch(const File& file);
 
-  /// Appends to a top-level array ("nodes", "meshes", "materials", "skins", "animations") and gives
-  /// the index.
+  const File& file() const { return file_; }
+
+  /// Adds an element to a top-level array ("nodes", "meshes", "materials", "skins", "animations")
+  /// and gives its index: the first that is free, else a new one at the end.
   int append(std::string_view array, std::string json);
-  /// Appends an accessor with a buffer view of its own into our bytes at the end of the rig's
-  /// buffer.
+  /// Adds an accessor with a buffer view of its own into our bytes in the rig's buffer.
   int append(NewAccessor accessor);
-  /// Appends bytes with a buffer view of their own and gives the view's index.
+  /// Adds bytes with a buffer view of their own and gives the view's index.
   int append_view(std::string_view data, int target);
   /// How many elements a top-level array has, appended ones included.
   int count(std::string_view array) const;
+  /// Indices that append gave out, in order.
+  std::vector<int> given(std::string_view array) const;
 
   /// The text of an element as it is now.
   std::string element(std::string_view array, int index) const;
@@ -77,21 +74,20 @@ class Patch {
   /// Replaces a whole element of a top-level array; where `json` is empty by a valid placeholder
   /// marked ours.
   void replace(std::string_view array, int index, std::string json);
-  /// Cuts a top-level array to its first `size` elements (our own tail). Bytes of cut buffer views
-  /// at the end of a .glb's BIN and a buffer file that only they used go with them.
+  /// Nothing uses this element any more: its place, and a buffer view's bytes, are given out again.
+  /// What is free at the end is cut; what remains in the middle becomes a minimal valid placeholder
+  /// marked ours, which a later patch finds.
+  void release(std::string_view array, int index);
+  /// Releases all elements from index `size` on.
   void truncate(std::string_view array, int size);
-  /// Cuts buffer 0 of a .glb to exactly this length: what buffer_length() was before our first
-  /// append, where that was recorded. Without this, up to 3 bytes of padding before our data stay
-  /// in its byteLength.
-  void truncate_buffer(std::uint64_t byte_length);
-  /// byteLength of buffer 0 without what this patch appends, 0 without a buffer.
-  std::uint64_t buffer_length() const;
   /// Sets one member of an element ("nodes", 3, "extras", ...) keeping the others; json empty
   /// removes it.
   void set_member(std::string_view array, int index, std::string_view member, std::string json);
   /// Adds a child to a node, or a root to the default (else the first, else a new) scene where
   /// `node` is -1.
   void add_child(int node, int child);
+  /// Adds a root to a scene.
+  void add_root(int scene, int node);
   void remove_child(int node, int child);
   /// Sets member `key` of `extras` of a node, or removes it where `json` is empty, keeping other
   /// extras. Extras that are no object (glTF allows any value) are the user's and stay as they are.
@@ -102,6 +98,9 @@ class Patch {
   std::string root_extension(std::string_view name) const;
   void use_extension(std::string_view name);
   void drop_extension(std::string_view name);
+  /// What `RIGC_rig.before` has to say so that taking out all that was added gives the very bytes
+  /// back. A file that has it keeps it: this is what to write next.
+  std::string before() const;
 
   /// The file's text with all changes, and its buffers, as .glb or .gltf; to be called once. Our
   /// bytes extend BIN, and buffer 0 of a .gltf becomes BIN; a .gltf, and a .glb whose buffer 0 is a

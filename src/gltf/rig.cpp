@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/text.h"
 #include "gltf/control_mesh.h"
@@ -21,40 +22,49 @@ using scene::NodeId;
 
 struct ArrayRow {
   const char* name;
-  Range Owned::Part::*range;
+  Slots Owned::Part::*slots;
 };
-constexpr ArrayRow kArrays[] = {{"meshes", &Owned::Part::meshes},
-                                {"materials", &Owned::Part::materials},
-                                {"skins", &Owned::Part::skins},
-                                {"accessors", &Owned::Part::accessors},
-                                {"bufferViews", &Owned::Part::buffer_views}};
+constexpr ArrayRow kArrays[] = {
+    {"nodes", &Owned::Part::nodes},         {"meshes", &Owned::Part::meshes},
+    {"materials", &Owned::Part::materials}, {"skins", &Owned::Part::skins},
+    {"accessors", &Owned::Part::accessors}, {"bufferViews", &Owned::Part::buffer_views}};
 
-/// Sets the ranges of a part to what the arrays have from now on.
-void begin_part(const Patch& patch, Owned::Part& part) {
-  for (const ArrayRow& row : kArrays) part.*row.range = {patch.count(row.name), 0};
-}
-
-void end_part(const Patch& patch, Owned::Part& part) {
-  for (const ArrayRow& row : kArrays) {
-    Range& range = part.*row.range;
-    range.count = patch.count(row.name) - range.first;
-    if (range.count == 0) range = {};
+/// Counts what a patch gave out since this was made.
+class Given {
+ public:
+  explicit Given(const Patch& patch) : patch_(patch) {
+    for (const ArrayRow& row : kArrays) before_.push_back(patch.given(row.name).size());
   }
-}
-
-/// Gives every scene node its glTF node, in the order in which they will be appended.
-void number_nodes(Rig& rig, const NodePlan& plan, int first,
-                  const std::vector<ProxyGroup>& proxies) {
-  rig.nodes = plan.foreign;
-  int next = first;
-  for (const NodeId id : plan.stays) rig.nodes[id.index] = next++;
-  for (const ProxyGroup& group : proxies) {
-    int& node = rig.nodes[group.mesh.index];
-    if (node < 0) node = next;
-    ++next;
+  void move_to(Owned::Part& part) {
+    for (std::size_t i = 0; i < before_.size(); ++i) {
+      const std::vector<int> given = patch_.given(kArrays[i].name);
+      while (before_[i] < given.size()) (part.*kArrays[i].slots).add(given[before_[i]++]);
+    }
   }
-  for (const NodeId id : plan.goes) rig.nodes[id.index] = next++;
-}
+
+ private:
+  const Patch& patch_;
+  std::vector<std::size_t> before_;
+};
+
+/// Takes a node of the file for each that is to be written, whose texts name one another: joints
+/// and what carries them, one for each group of a proxy, and what strip takes away.
+struct Numbers {
+  std::vector<int> proxies;
+  Numbers(Patch& patch, Rig& rig, const NodePlan& plan, const std::vector<ProxyGroup>& groups,
+          Given& given) {
+    rig.nodes = plan.foreign;
+    for (const NodeId id : plan.stays) rig.nodes[id.index] = patch.append("nodes", "{}");
+    for (const ProxyGroup& group : groups) {
+      proxies.push_back(patch.append("nodes", "{}"));
+      int& node = rig.nodes[group.mesh.index];
+      if (node < 0) node = proxies.back();
+    }
+    given.move_to(rig.owned.stays);
+    for (const NodeId id : plan.goes) rig.nodes[id.index] = patch.append("nodes", "{}");
+    given.move_to(rig.owned.goes);
+  }
+};
 
 /// Appends meshes and skins of proxies and gives the texts of their nodes; empty where a number is
 /// too large.
@@ -95,38 +105,64 @@ std::vector<int> write_shapes(Patch& patch, const scene::Scene& scene) {
   return meshes;
 }
 
-/// Joints and proxy meshes first, then what strip takes away.
-void write_nodes(Patch& patch, Rig& rig, const NodePlan& plan, const std::vector<int>& meshes,
-                 const std::vector<std::string>& proxies) {
-  const auto append = [&](NodeId id) {
-    patch.append("nodes", node_text(rig, plan, id, meshes[id.index]));
-  };
-  const int first = patch.count("nodes");
-  for (const NodeId id : plan.stays) append(id);
-  for (const std::string& text : proxies) {
-    const int node = patch.append("nodes", text);
-    // Under a parent, validators warn: the transform of a skinned mesh's node is ignored.
-    patch.add_child(-1, node);
+/// Scenes that hold the model's joints; the default scene, as -1, where no joint is the model's.
+std::vector<int> scenes_of(const File& file, const NodePlan& plan) {
+  const auto nodes = file.root()["nodes"].items();
+  std::vector<int> parents(nodes.size(), -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (const json::Value& child : nodes[i]["children"].items())
+      parents[static_cast<std::size_t>(child.integer().value_or(0))] = static_cast<int>(i);
+  std::set<std::int64_t> tops;
+  for (int node : plan.foreign) {
+    if (node < 0) continue;
+    while (parents[static_cast<std::size_t>(node)] >= 0)
+      node = parents[static_cast<std::size_t>(node)];
+    tops.insert(node);
   }
-  const int second = patch.count("nodes");
-  for (const NodeId id : plan.goes) append(id);
-  rig.owned.stays.nodes = {first, second - first};
-  rig.owned.goes.nodes = {second, patch.count("nodes") - second};
+  if (tops.empty()) return {-1};
+  std::vector<int> found;
+  const auto scenes = file.root()["scenes"].items();
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const auto roots = scenes[i]["nodes"].items();
+    if (std::any_of(roots.begin(), roots.end(), [&](const json::Value& root) {
+          return tops.count(root.integer().value_or(-1)) != 0;
+        }))
+      found.push_back(static_cast<int>(i));
+  }
+  return found;
+}
+
+void add_roots(Patch& patch, const std::vector<int>& scenes, int node) {
+  for (const int scene : scenes)
+    scene < 0 ? patch.add_child(-1, node) : patch.add_root(scene, node);
+}
+
+void write_nodes(Patch& patch, const Rig& rig, const NodePlan& plan,
+                 const std::vector<int>& meshes) {
+  for (const auto* part : {&plan.stays, &plan.goes})
+    for (const NodeId id : *part)
+      patch.replace("nodes", rig.nodes[id.index], node_text(rig, plan, id, meshes[id.index]));
 }
 
 /// Identities of the model's joints, and what hangs under them or under the ancestor.
-void join_to_model(Patch& patch, const Rig& rig, const NodePlan& plan, int ancestor) {
+void join_to_model(Patch& patch, const Rig& rig, const NodePlan& plan,
+                   const std::vector<int>& scenes) {
+  const auto nodes = patch.file().root()["nodes"].items();
   for (const NodeId id : rig.scene.nodes()) {
     const NodeId parent = plan.parents[id.index];
-    if (plan.foreign[id.index] >= 0) {
+    if (const int foreign = plan.foreign[id.index]; foreign >= 0) {
       Identity identity = rig.scene[id].identity;
       identity.rig = rig.id;
-      patch.set_extra(plan.foreign[id.index], "rigc", json::quote(to_text(identity)));
+      if (!has_foreign_mark(nodes[static_cast<std::size_t>(foreign)]))
+        patch.set_extra(foreign, "rigc", json::quote(to_text(identity)));
     } else if (scene::spec(rig.scene[id].kind).is_transform) {
-      if (!parent.valid()) {
-        patch.add_child(ancestor, rig.nodes[id.index]);
-      } else if (plan.foreign[parent.index] >= 0) {
-        patch.add_child(plan.foreign[parent.index], rig.nodes[id.index]);
+      if (parent.valid()) {
+        if (plan.foreign[parent.index] >= 0)
+          patch.add_child(plan.foreign[parent.index], rig.nodes[id.index]);
+      } else if (rig.ancestor >= 0) {
+        patch.add_child(rig.ancestor, rig.nodes[id.index]);
+      } else {
+        add_roots(patch, scenes, rig.nodes[id.index]);
       }
     }
   }
@@ -134,7 +170,8 @@ void join_to_model(Patch& patch, const Rig& rig, const NodePlan& plan, int ances
 
 /// RIGC_rig with this rig in the place of the one with its id, if there is one, else behind the
 /// others.
-std::string extension_text(const std::string& before, const Rig& rig, const Sources& sources) {
+std::string extension_text(const Patch& patch, const Rig& rig, const Sources& sources) {
+  const std::string before = patch.root_extension("RIGC_rig");
   std::vector<std::pair<std::int64_t, std::string>> rigs;
   Diagnostics none;
   const auto document = json::parse(before.empty() ? "{}" : before, "", 0, none);
@@ -147,32 +184,49 @@ std::string extension_text(const std::string& before, const Rig& rig, const Sour
   std::stable_sort(rigs.begin(), rigs.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   json::Writer writer;
-  writer.begin_object().member("version", kRigVersionNumber).key("rigs").begin_array();
+  writer.begin_object().member("version", kRigVersionNumber);
+  writer.key("before").raw(patch.before()).key("rigs").begin_array();
   for (const auto& [id, text] : rigs) writer.raw("\n" + text);
   return writer.end_array().end_object().take();
 }
 
 }  // namespace
 
+bool Slots::contains(int index) const {
+  return std::any_of(runs.begin(), runs.end(), [&](const Range& run) {
+    return index >= run.first && index - run.first < run.count;
+  });
+}
+
+void Slots::add(int index) {
+  if (!runs.empty() && runs.back().first + runs.back().count == index)
+    ++runs.back().count;
+  else
+    runs.push_back({index, 1});
+}
+
 bool write_rig(Patch& patch, Rig& rig, int ancestor, Diagnostics& diagnostics) {
   if (!check_writable(rig, diagnostics)) return false;
   const NodePlan plan = plan_nodes(rig, ancestor);
   const std::vector<ProxyGroup> proxies = proxy_groups(rig.scene, plan.roots);
-  number_nodes(rig, plan, patch.count("nodes"), proxies);
   rig.ancestor = ancestor;
   rig.owned = {};
-  rig.owned.buffer_length = patch.buffer_length();
-  begin_part(patch, rig.owned.stays);
+  Given given(patch);
+  const Numbers numbers(patch, rig, plan, proxies, given);
   const auto proxy_nodes = write_proxies(patch, rig, proxies, diagnostics);
   if (!proxy_nodes) return false;
-  end_part(patch, rig.owned.stays);
-  begin_part(patch, rig.owned.goes);
+  given.move_to(rig.owned.stays);
   const std::vector<int> meshes = write_shapes(patch, rig.scene);
-  end_part(patch, rig.owned.goes);
-  write_nodes(patch, rig, plan, meshes, *proxy_nodes);
-  join_to_model(patch, rig, plan, ancestor);
-  const std::string before = patch.root_extension("RIGC_rig");
-  patch.set_root_extension("RIGC_rig", extension_text(before, rig, diagnostics.sources()));
+  given.move_to(rig.owned.goes);
+  write_nodes(patch, rig, plan, meshes);
+  const std::vector<int> scenes = scenes_of(patch.file(), plan);
+  for (std::size_t i = 0; i < proxies.size(); ++i) {
+    patch.replace("nodes", numbers.proxies[i], (*proxy_nodes)[i]);
+    // Under a parent, validators warn: the transform of a skinned mesh's node is ignored.
+    add_roots(patch, scenes, numbers.proxies[i]);
+  }
+  join_to_model(patch, rig, plan, scenes);
+  patch.set_root_extension("RIGC_rig", extension_text(patch, rig, diagnostics.sources()));
   return true;
 }
 

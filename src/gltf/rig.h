@@ -27,24 +27,29 @@ struct CommandRecord {
   int line = 0;
 };
 
-/// Elements of a top-level array that a rig appended.
+/// Elements of a top-level array, as runs of neighbours.
 struct Range {
   int first = 0;
   int count = 0;
-  bool contains(int index) const { return index >= first && index - first < count; }
   bool operator==(const Range&) const = default;
 };
+struct Slots {
+  std::vector<Range> runs;
+  bool empty() const { return runs.empty(); }
+  bool contains(int index) const;
+  void add(int index);
+  bool operator==(const Slots&) const = default;
+};
 
-/// What a rig appended to its file, in two parts, each at the end of its arrays when it was
-/// written: so that taking the second away leaves no holes.
+/// What a rig added to the arrays of its file, in two parts. Where there were no free places, each
+/// was at the end when it was written: so that taking the second away leaves no holes.
 struct Owned {
   struct Part {
-    Range nodes, meshes, materials, skins, accessors, buffer_views;
+    Slots nodes, meshes, materials, skins, accessors, buffer_views;
     bool operator==(const Part&) const = default;
   };
-  Part stays;                       ///< joints and proxy meshes: part of a stripped character too
-  Part goes;                        ///< controls, zeros, handles, and the controls' shapes
-  std::uint64_t buffer_length = 0;  ///< of buffer 0 before the rig
+  Part stays;  ///< joints and proxy meshes: part of a character that was built from a template
+  Part goes;   ///< controls, zeros, handles, and the controls' shapes
   bool operator==(const Owned&) const = default;
 };
 
@@ -65,24 +70,36 @@ struct Rig {
   Owned owned;
 };
 
-/// Appends a rig to a file (or to empty_file()): nodes, control shapes, proxy mesh and skin,
-/// RIGC_rig, identities. Joints with a foreign node keep it untouched but for extras.rigc and
-/// children of ours. `ancestor`: node that the rig's roots go under, -1: the scene. Other rigs of
-/// the file stay. Fills rig.nodes and rig.owned.
+/// Adds a rig to a file (or to empty_file()): nodes, control shapes, proxy mesh and skin, RIGC_rig,
+/// identities. Joints with a foreign node keep it untouched but for extras.rigc and children of
+/// ours. `ancestor`: node that the rig's roots go under; -1: the scenes that the model's joints are
+/// in, the default scene where no joint is the model's. Other rigs of the file stay. Fills
+/// rig.nodes and rig.owned.
 bool write_rig(Patch& patch, Rig& rig, int ancestor, Diagnostics& diagnostics);
+
+/// Where the nodes of a rig that is read say that they come from: for messages.
+enum class Origins { templates, file };
 
 /// All rigs of a file, ordered by id, with what animators set without keying (transforms, extras)
 /// taken over into the scenes. A file without any gives an empty list. A RIGC_rig that lies about
 /// itself is an error.
-std::optional<std::vector<Rig>> read_rigs(const File& file, Diagnostics& diagnostics);
+std::optional<std::vector<Rig>> read_rigs(const File& file, Diagnostics& diagnostics,
+                                          Origins origins = Origins::templates);
 
-/// Takes rigs out of their file: controls with their shapes, identities and RIGC_rig go; joints,
-/// proxy meshes, and all that others added stay. Comes before anything is appended to the patch:
-/// then indices and bytes at the end are cut, else placeholders remain. Gives the glTF nodes that
-/// are gone: channels on them are the caller's to drop.
-std::set<int> strip_rigs(Patch& patch, const File& file, const std::vector<Rig>& rigs);
-inline void strip_rig(Patch& patch, const File& file, const Rig& rig) {
-  strip_rigs(patch, file, {rig});
+/// What remains of a rig that is taken out of its file.
+enum class Strip {
+  character,  ///< joints and proxy meshes that it brought: they are the character's
+  nothing     ///< what is the model's own: the model's file as it was, byte for byte
+};
+
+/// Takes rigs out of their file: controls with their shapes, identities and RIGC_rig go; all that
+/// others added stays. Comes before anything is appended to the patch, which then takes the free
+/// places first. Gives the glTF nodes that are gone: channels on them are the caller's to drop.
+std::set<int> strip_rigs(Patch& patch, const File& file, const std::vector<Rig>& rigs,
+                         Strip remains = Strip::character);
+inline void strip_rig(Patch& patch, const File& file, const Rig& rig,
+                      Strip remains = Strip::character) {
+  strip_rigs(patch, file, {rig}, remains);
 }
 
 /// Where a joint's node stands in its file, which may differ from the scene: a foreign node keeps

@@ -9,16 +9,15 @@
 #include "base/text.h"
 #include "gltf/rig_codes.h"
 #include "gltf/rig_json.h"
+#include "gltf/rig_json_reader.h"
 
 namespace rigc::gltf {
 namespace {
 
 using scene::NodeId;
 
-constexpr double kLargest = 1e30;
-
 struct Fits {
-  bool operator()(double n) const { return std::abs(n) <= kLargest; }
+  bool operator()(double n) const { return std::abs(n) <= kLargestNumber; }
   bool operator()(const math::Vec3& v) const {
     return (*this)(v.x) && (*this)(v.y) && (*this)(v.z);
   }

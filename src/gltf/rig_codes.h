@@ -40,7 +40,7 @@ inline constexpr Code kRigValue{
     708, Severity::error, "value does not fit in RIGC_rig",
     "The value of an attribute has another type, or another count of numbers, than its kind says."};
 inline constexpr Code kRigTooLarge{709, Severity::error, "rig is too large",
-                                   "A rig has at most 65,536 joints, 262,144 nodes and 262,144 "
+                                   "A rig has at most 32,768 joints, 32,768 nodes and 32,768 "
                                    "commands, a file at most 1,024 rigs."};
 
 // Rigs in nodes.
@@ -59,9 +59,13 @@ inline constexpr Code kNotWritable{718, Severity::error, "number cannot be writt
                                    "numbers of glTF. Look at sizes and "
                                    "scales in the template."};
 
+inline constexpr Code kLockedMoved{
+    745, Severity::warning, "locked attribute was changed",
+    "Another program moved a control where its rig has locked it. The rig's value is used."};
+
 inline constexpr const Code* kRigCodes[] = {
-    &kRigVersion,   &kRigType,      &kRigIndex,       &kRigWord,    &kRigText,
-    &kRigDuplicate, &kRigHierarchy, &kRigConnection,  &kRigValue,   &kRigTooLarge,
-    &kSameIdentity, &kNodeLost,     &kExtraNotNumber, &kNotWritable};
+    &kRigVersion,   &kRigType,      &kRigIndex,       &kRigWord,     &kRigText,
+    &kRigDuplicate, &kRigHierarchy, &kRigConnection,  &kRigValue,    &kRigTooLarge,
+    &kSameIdentity, &kNodeLost,     &kExtraNotNumber, &kNotWritable, &kLockedMoved};
 
 }  // namespace rigc::gltf::codes

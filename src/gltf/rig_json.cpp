@@ -39,7 +39,7 @@ void read_commands(const json::Value& object, JsonReader& reader, PlaceReader& p
 
 struct OwnedRow {
   const char* name;
-  Range Owned::Part::*range;
+  Slots Owned::Part::*slots;
 };
 constexpr OwnedRow kOwnedRows[] = {
     {"nodes", &Owned::Part::nodes},         {"meshes", &Owned::Part::meshes},
@@ -52,32 +52,35 @@ void write_owned(json::Writer& writer, const Owned& owned) {
     const Owned::Part& part = stays ? owned.stays : owned.goes;
     writer.key(stays ? "stays" : "goes").begin_object();
     for (const OwnedRow& row : kOwnedRows) {
-      const Range& range = part.*row.range;
-      if (range.count == 0) continue;
-      writer.key(row.name).begin_array().value(range.first).value(range.count).end_array();
+      if ((part.*row.slots).empty()) continue;
+      writer.key(row.name).begin_array();
+      for (const Range& run : (part.*row.slots).runs) writer.value(run.first).value(run.count);
+      writer.end_array();
     }
     writer.end_object();
   }
-  writer.member("buffer_length", static_cast<std::size_t>(owned.buffer_length)).end_object();
+  writer.end_object();
+}
+
+void read_slots(const json::Value& list, JsonReader& reader, Slots& out) {
+  const auto numbers = list.items();
+  if (!list.is_array() || numbers.size() % 2 != 0)
+    return reader.fail(codes::kRigType, list, "runs are [first, count, ...]");
+  for (std::size_t i = 0; i < numbers.size(); i += 2) {
+    std::int64_t first = 0, count = 0;
+    if (reader.whole(numbers[i], 0, kLargestIndex, first) &&
+        reader.whole(numbers[i + 1], 0, kLargestIndex - first, count))
+      out.runs.push_back({static_cast<int>(first), static_cast<int>(count)});
+  }
 }
 
 void read_owned(const json::Value& object, JsonReader& reader, Owned& out) {
   const json::Value owned = object["owned"];
   if (!owned.is_object()) return reader.fail(codes::kRigType, object, "\"owned\" is missing");
-  reader.get(owned, "buffer_length", 0, std::int64_t{1} << 52, out.buffer_length, Need::required);
   for (const bool stays : {true, false}) {
-    Owned::Part& part = stays ? out.stays : out.goes;
     for (const OwnedRow& row : kOwnedRows) {
-      const json::Value range = owned[stays ? "stays" : "goes"][row.name];
-      if (!range) continue;
-      const auto numbers = range.items();
-      std::int64_t first = 0, count = 0;
-      if (numbers.size() != 2) {
-        reader.fail(codes::kRigType, range, "a range is [first, count]");
-      } else if (reader.whole(numbers[0], 0, kLargestIndex, first) &&
-                 reader.whole(numbers[1], 0, kLargestIndex - first, count)) {
-        part.*row.range = {static_cast<int>(first), static_cast<int>(count)};
-      }
+      const json::Value list = owned[stays ? "stays" : "goes"][row.name];
+      if (list) read_slots(list, reader, (stays ? out.stays : out.goes).*row.slots);
     }
   }
 }
@@ -102,11 +105,11 @@ std::string to_json(const Rig& rig, const Sources& sources) {
 }
 
 std::optional<Rig> from_json(const json::Value& object, const std::string& file,
-                             Diagnostics& diagnostics) {
+                             Diagnostics& diagnostics, Origins origins) {
   JsonReader reader(file, diagnostics);
   Rig rig;
   reader.get(object, "id", 0, UINT32_MAX, rig.id, Need::required);
-  PlaceReader places(object, reader);
+  PlaceReader places(object, reader, origins == Origins::file ? file : "");
   read_skeleton(object, reader, places, rig.skeleton);
   read_settings(object, reader, rig.settings);
   reader.get(object, "ancestor", 0, kLargestIndex, rig.ancestor);

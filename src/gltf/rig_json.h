@@ -13,8 +13,8 @@ namespace rigc::gltf {
 
 inline constexpr int kRigVersionNumber = 1;
 inline constexpr std::size_t kMostRigs = 1024;
-inline constexpr std::size_t kMostJoints = 65536;
-inline constexpr std::size_t kMostNodes = 262144;
+inline constexpr std::size_t kMostJoints = 32768;
+inline constexpr std::size_t kMostNodes = 32768;  ///< of a rig, and of all rigs of a file
 inline constexpr std::size_t kMostDepth = 1024;
 inline constexpr std::size_t kMostElements = 4096;  ///< of an array attribute
 
@@ -23,8 +23,9 @@ inline constexpr std::size_t kMostElements = 4096;  ///< of an array attribute
 std::string to_json(const Rig& rig, const Sources& sources);
 
 /// The reverse; `file` is the name for messages. Sources of the rig's files are added without their
-/// texts. Indices of glTF nodes are only checked not to be below -1.
+/// texts. Indices of glTF nodes are only checked not to be below -1. With Origins::file nodes come
+/// from where they stand in the file, not from the template's lines.
 std::optional<Rig> from_json(const json::Value& object, const std::string& file,
-                             Diagnostics& diagnostics);
+                             Diagnostics& diagnostics, Origins origins = Origins::templates);
 
 }  // namespace rigc::gltf

@@ -74,6 +74,8 @@ std::string joint_text(const tags::TaggedJoint& joint, const std::string& global
   writer.begin_object().member("name", joint.name).member("key", to_text(joint.key));
   if (!joint.was.empty()) write_keys(writer.key("was"), joint.was);
   if (joint.parent >= 0) writer.member("parent", joint.parent);
+  if (joint.template_parent != JointKey{})
+    writer.member("template_parent", to_text(joint.template_parent));
   write_identifiers(writer, joint.ids, global);
   write_rest(writer, joint.rest);
   if (joint.optional) writer.member("optional", true);
@@ -91,6 +93,8 @@ std::string joint_text(const tags::TaggedJoint& joint, const std::string& global
 /// An argument is found where its command is: columns of arguments are not kept.
 void read_arguments(const json::Value& item, JsonReader& reader, tags::CommandTag& command) {
   for (const auto& [name, value] : reader.members(item, "with")) {
+    // A value has two bytes at least: itself and what divides it from the next.
+    if (!reader.spend(value, value.text().size() / 2)) return;
     auto literal = literal_from(value);
     if (!literal) {
       reader.fail(codes::kRigType, value, "an argument is a plain value");
@@ -142,6 +146,7 @@ tags::TaggedJoint read_joint(const json::Value& item, JsonReader& reader, PlaceR
   }
   reader.get(item, "parent", 0, static_cast<std::int64_t>(skeleton.joints.size()) - 1,
              joint.parent);
+  reader.get(item, "template_parent", joint.template_parent);
   read_identifiers(item, reader, skeleton.global, joint.ids);
   reader.get(item, "translation", joint.rest.translation);
   reader.get(item, "rotation", joint.rest.rotation);

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/text.h"
 #include "gltf/rig_codes.h"
 
@@ -42,6 +44,8 @@ bool JsonReader::read(const json::Value& value, bool& out) {
 bool JsonReader::read(const json::Value& value, double& out) {
   const auto number = value.number();
   if (!number) return fail(codes::kRigType, value, "a number is needed here"), false;
+  if (std::abs(*number) > kLargestNumber)
+    return fail(codes::kRigValue, value, "numbers of a rig are not above 1e30"), false;
   out = *number;
   return true;
 }
@@ -73,6 +77,8 @@ bool JsonReader::read(const json::Value& value, math::Quat& out) {
   double n[4];
   if (!numbers(value, n, 4)) return false;
   out = {n[0], n[1], n[2], n[3]};
+  if (!(math::dot(out, out) > 1e-12))
+    return fail(codes::kRigValue, value, "the quaternion has length zero"), false;
   return true;
 }
 
@@ -134,6 +140,15 @@ bool JsonReader::read(const json::Value& value, std::vector<std::string>& out) {
   return true;
 }
 
+bool JsonReader::spend(const json::Value& at, std::size_t count) {
+  if (count <= room_) {
+    room_ -= count;
+    return true;
+  }
+  fail(codes::kRigTooLarge, at, "the rig has too many tags, commands and arguments");
+  return false;
+}
+
 bool JsonReader::whole(const json::Value& value, std::int64_t low, std::int64_t high,
                        std::int64_t& out) {
   const auto number = value.integer();
@@ -164,6 +179,7 @@ std::vector<json::Value> JsonReader::objects(const json::Value& object, std::str
          fmt::format("{} elements; at most {} are allowed", list.size(), most));
     return {};
   }
+  if (!spend(object[key], list.size())) return {};
   for (const json::Value& item : list) {
     if (item.is_object()) continue;
     fail(codes::kRigType, item, "an object is needed here");

@@ -15,6 +15,9 @@
 
 namespace rigc::gltf {
 
+/// The largest number that a rig may have: what 32-bit floats hold, with room to calculate.
+inline constexpr double kLargestNumber = 1e30;
+
 enum class Need : std::uint8_t { optional, required };
 
 /// Each function gives false, and leaves `out`, where it reported an error or the member is
@@ -41,6 +44,9 @@ class JsonReader {
   bool read(const json::Value& value, Identity& out);
   bool read(const json::Value& value, std::vector<double>& out);
   bool read(const json::Value& value, std::vector<std::string>& out);
+  /// Whether there is room for `count` more tags, commands, arguments and the like: they take
+  /// a hundred times their shortest text. Too many are reported, once.
+  bool spend(const json::Value& at, std::size_t count);
   /// A whole number in `low`..`high`.
   bool whole(const json::Value& value, std::int64_t low, std::int64_t high, std::int64_t& out);
 
@@ -74,6 +80,7 @@ class JsonReader {
   std::string file_;
   Diagnostics& diagnostics_;
   std::size_t errors_ = 0;
+  std::size_t room_ = std::size_t{1} << 18;
 };
 
 }  // namespace rigc::gltf

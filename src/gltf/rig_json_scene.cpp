@@ -135,8 +135,8 @@ Hierarchy read_hierarchy(const std::vector<json::Value>& items, JsonReader& read
   return out;
 }
 
-void read_origin(const json::Value& item, JsonReader& reader, PlaceReader& places, const Rig& rig,
-                 scene::Node& node) {
+void read_origin(const json::Value& item, std::size_t index, JsonReader& reader,
+                 PlaceReader& places, const Rig& rig, scene::Node& node) {
   node.origin = usual_origin(rig, node);
   std::vector<std::string> words;
   if (reader.get(item, "origin", words)) {
@@ -145,12 +145,12 @@ void read_origin(const json::Value& item, JsonReader& reader, PlaceReader& place
     node.origin.joint = words[0];
     node.origin.command = words[1];
   }
-  node.origin.span = places.read(item);
+  node.origin.span = places.read_node(item, index);
 }
 
 /// A node without hierarchy and values; empty where something is wrong. `keys`: of the skeleton's
 /// joints.
-std::optional<scene::Node> read_node(const json::Value& item, JsonReader& reader,
+std::optional<scene::Node> read_node(const json::Value& item, std::size_t index, JsonReader& reader,
                                      PlaceReader& places, const Rig& rig,
                                      const std::set<JointKey>& keys) {
   scene::Node node;
@@ -169,7 +169,7 @@ std::optional<scene::Node> read_node(const json::Value& item, JsonReader& reader
   read_identifiers(item, reader, rig.skeleton.global, node.ids);
   reader.get(item, "command", 0, static_cast<std::int64_t>(rig.commands.size()) - 1, node.command);
   if (!node.is_skeleton()) node.module = rig.commands[node.command].module;
-  read_origin(item, reader, places, rig, node);
+  read_origin(item, index, reader, places, rig, node);
   if (node.identity.rig != rig.id) {
     reader.fail(
         codes::kRigText, item["identity"],
@@ -192,7 +192,7 @@ bool make_nodes(const std::vector<json::Value>& items, const Hierarchy& hierarch
   std::set<JointKey> keys;
   for (const tags::TaggedJoint& joint : rig.skeleton.joints) keys.insert(joint.key);
   for (std::size_t i = 0; i < items.size(); ++i) {
-    auto node = read_node(items[i], reader, places, rig, keys);
+    auto node = read_node(items[i], i, reader, places, rig, keys);
     if (!node) continue;
     if (!identities.insert(node->identity).second)
       reader.fail(codes::kRigDuplicate, items[i]["identity"],

@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "gltf/rig_codes.h"
 #include "gltf/rig_json.h"
+#include "gltf/rig_json_data.h"
 #include "scene/storage.h"
 
 namespace rigc::gltf {
@@ -90,6 +91,7 @@ void write_user(json::Writer& writer, const scene::Node& node) {
     if (attribute.min) writer.member("min", *attribute.min);
     if (attribute.max) writer.member("max", *attribute.max);
     if (!attribute.keyable) writer.member("keyable", false);
+    if (attribute.hidden) writer.member("hidden", true);
     writer.end_object();
   }
   writer.end_array();
@@ -152,6 +154,7 @@ void read_user(const json::Value& item, JsonReader& reader, SceneMaker& maker, N
   if (reader.get(item, "min", bound)) attribute.min = bound;
   if (reader.get(item, "max", bound)) attribute.max = bound;
   reader.get(item, "keyable", attribute.keyable);
+  reader.get(item, "hidden", attribute.hidden);
   if (!reader.ok()) return;
   const auto found = std::find(kFlavours.begin(), kFlavours.end(), flavour);
   if (found == kFlavours.end())
@@ -250,6 +253,7 @@ void read_values(const json::Value& object, JsonReader& reader, SceneMaker& make
     const Plug plug{id, static_cast<std::uint16_t>(attribute)};
     read_attribute(value, reader, maker, plug, kind.attributes[attribute]);
   }
+  check_data(object["values"], reader, maker.scene(), id);
   for (const json::Value& item : reader.objects(object, "user", kMostUser))
     read_user(item, reader, maker, id);
 }

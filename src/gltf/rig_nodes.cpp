@@ -102,6 +102,11 @@ NodePlan plan_nodes(const Rig& rig, int ancestor) {
   return plan;
 }
 
+bool has_foreign_mark(const json::Value& node) {
+  const json::Value mark = node["extras"]["rigc"];
+  return mark && !parse_identity(mark.string().value_or(""));
+}
+
 std::string extras_text(const Rig& rig, NodeId id) {
   const scene::Node& node = rig.scene[id];
   Identity identity = node.identity;

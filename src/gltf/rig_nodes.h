@@ -25,6 +25,10 @@ struct NodePlan {
 
 NodePlan plan_nodes(const Rig& rig, int ancestor);
 
+/// Whether `extras.rigc` of a node is somebody else's value, which stays: then the node does not
+/// say which joint it is.
+bool has_foreign_mark(const json::Value& node);
+
 /// `{"rigc":"...","ik_fk":1.0}`: identity and keyable attributes.
 std::string extras_text(const Rig& rig, scene::NodeId id);
 

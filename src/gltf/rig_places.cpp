@@ -67,7 +67,9 @@ void PlaceWriter::write(json::Writer& writer, const std::string& file, int line)
   writer.key("at").numbers(place, 2);
 }
 
-PlaceReader::PlaceReader(const json::Value& rig, JsonReader& reader) : reader_(reader) {
+PlaceReader::PlaceReader(const json::Value& rig, JsonReader& reader, const std::string& rig_file)
+    : reader_(reader) {
+  if (!rig_file.empty()) rig_place_ = rig_file + '#' + rig.pointer();
   reader.get(rig, "files", files_);
   if (files_.size() > kMostFiles) {
     reader.fail(codes::kRigTooLarge, rig["files"],
@@ -98,6 +100,13 @@ Span PlaceReader::read(const json::Value& object) {
   if (!numbers(object, 3, n)) return {};
   return {sources_[static_cast<std::size_t>(n[0])], static_cast<std::uint32_t>(n[1]),
           static_cast<std::uint32_t>(n[2]), 0};
+}
+
+Span PlaceReader::read_node(const json::Value& object, std::size_t index) {
+  const Span span = read(object);
+  if (rig_place_.empty()) return span;
+  return {reader_.diagnostics().sources().add(fmt::format("{}/nodes/{}", rig_place_, index), {}), 0,
+          0, 0};
 }
 
 void PlaceReader::read(const json::Value& object, std::string& file, int& line) {

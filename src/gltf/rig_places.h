@@ -42,16 +42,21 @@ class PlaceWriter {
 
 class PlaceReader {
  public:
-  /// Reads `files` of a rig and adds each to the sources, without text.
-  PlaceReader(const json::Value& rig, JsonReader& reader);
+  /// Reads `files` of a rig and adds each to the sources, without text. `rig_file`: the file that
+  /// the rig is in, where nodes shall say that they come from it.
+  PlaceReader(const json::Value& rig, JsonReader& reader, const std::string& rig_file = {});
   Span read(const json::Value& object);
   void read(const json::Value& object, std::string& file, int& line);
+  /// The place of node `index`: where its command stands in a template, or where it stands in the
+  /// rig's file.
+  Span read_node(const json::Value& object, std::size_t index);
 
  private:
   bool numbers(const json::Value& object, std::size_t count, std::int64_t* out);
   JsonReader& reader_;
   std::vector<std::string> files_;
   std::vector<std::uint32_t> sources_;
+  std::string rig_place_;  ///< `shot.glb#/extensions/RIGC_rig/rigs/0`; empty: templates count
 };
 
 }  // namespace rigc::gltf

@@ -10,6 +10,8 @@
 #include "base/text.h"
 #include "gltf/rig_codes.h"
 #include "gltf/rig_json_values.h"
+#include "math/limit.h"
+#include "scene/access.h"
 
 namespace rigc::gltf {
 namespace {
@@ -45,18 +47,43 @@ bool is_driven(const scene::Scene& scene, NodeId id, std::uint16_t attribute) {
   });
 }
 
-void take_over_transform(const math::Trs& local, SceneMaker& maker, NodeId id) {
+/// A value whose locked components are what they were.
+template <class T>
+T held(const T& now, const math::Vec3& components_before, unsigned locked) {
+  math::LimitSpace space;
+  for (unsigned i = 0; i < 3; ++i)
+    if (locked & 1u << i) space.min[i] = space.max[i] = components_before[i];
+  if constexpr (std::is_same_v<T, math::Quat>)
+    return math::limit_rotation(now, space);
+  else
+    return math::limit_vector(now, space);
+}
+
+void take_over_transform(const math::Trs& local, SceneMaker& maker, NodeId id, const Place& place,
+                         Diagnostics& diagnostics) {
   namespace transform = scene::transform;
   const scene::Scene& scene = maker.scene();
   const math::Trs before = scene.local(id);
-  if (!same(local.translation, before.translation) && !is_driven(scene, id, transform::kTranslate))
-    maker.set({id, transform::kTranslate}, local.translation);
-  const bool turned =
-      is_driven(scene, id, transform::kRotation) || is_driven(scene, id, transform::kRotate);
-  if (!same(local.rotation, before.rotation) && !turned)
-    maker.set({id, transform::kRotation}, local.rotation);
-  if (!same(local.scale, before.scale) && !is_driven(scene, id, transform::kScale))
-    maker.set({id, transform::kScale}, local.scale);
+  const auto angles = std::get<math::Vec3>(scene.value({id, transform::kRotate}));
+  const unsigned locked = scene::bits_at(scene, id, scene::control::kLocked);
+  bool moved = false;
+  const auto take = [&](std::uint16_t attribute, const auto& now, const auto& was,
+                        const math::Vec3& components, unsigned bits) {
+    if (same(now, was)) return;
+    const auto value = held(now, components, bits & 7);
+    moved = moved || !same(value, now);
+    if (!same(value, was)) maker.set({id, attribute}, value);
+  };
+  if (!is_driven(scene, id, transform::kTranslate))
+    take(transform::kTranslate, local.translation, before.translation, before.translation, locked);
+  if (!is_driven(scene, id, transform::kRotation) && !is_driven(scene, id, transform::kRotate))
+    take(transform::kRotation, local.rotation, before.rotation, angles, locked >> 3);
+  if (!is_driven(scene, id, transform::kScale))
+    take(transform::kScale, local.scale, before.scale, before.scale, locked >> 6);
+  if (!moved) return;
+  diagnostics.report(
+      codes::kLockedMoved, place,
+      fmt::format("\"{}\" stands where the rig's locks do not let it", printable(scene[id].name)));
 }
 
 void take_over_attributes(const File& file, const json::Value& extras, SceneMaker& maker, NodeId id,
@@ -87,7 +114,8 @@ void take_over_pose(const File& file, const Slim& slim, const std::vector<json::
   for (const NodeId id : rig.scene.nodes()) {
     const int node = rig.nodes[id.index];
     if (rig.scene[id].kind != scene::Kind::control || node < 0) continue;
-    take_over_transform(slim.node(node).local, maker, id);
+    take_over_transform(slim.node(node).local, maker, id,
+                        Place(file.path, fmt::format("/nodes/{}", node)), diagnostics);
     take_over_attributes(file, nodes[static_cast<std::size_t>(node)]["extras"], maker, id,
                          diagnostics);
   }

@@ -21,6 +21,12 @@ using scene::NodeId;
 
 Place at_node(const File& file, int node) { return {file.path, fmt::format("/nodes/{}", node)}; }
 
+/// A rig and where its text stands.
+struct Text {
+  Rig rig;
+  std::string pointer;
+};
+
 /// What the nodes of a file say that they are.
 struct Identities {
   std::map<Identity, int> nodes;
@@ -63,9 +69,10 @@ int find_node(const Identities& identities, const scene::Node& node, int recorde
 }
 
 /// Sets rig.nodes to the nodes that there are.
-bool resolve_nodes(const File& file, const Identities& identities, Rig& rig, std::set<int>& taken,
+bool resolve_nodes(const File& file, const Identities& identities, Text& text, std::set<int>& taken,
                    Diagnostics& diagnostics) {
   const std::size_t errors = diagnostics.errors();
+  Rig& rig = text.rig;
   const auto count = static_cast<int>(identities.marked.size());
   for (const NodeId id : rig.scene.nodes()) {
     const scene::Node& node = rig.scene[id];
@@ -73,15 +80,16 @@ bool resolve_nodes(const File& file, const Identities& identities, Rig& rig, std
     const bool has_place =
         scene::spec(node.kind).is_transform || (node.kind == scene::Kind::mesh && at >= 0);
     const int recorded = at;
+    const Place place(file.path, fmt::format("{}/nodes/{}", text.pointer, id.index));
     at = has_place ? find_node(identities, node, recorded) : -1;
     if (at < 0 && (recorded >= count || (recorded >= 0 && !has_place))) {
       diagnostics.report(
-          codes::kRigIndex, Place(file.path, "/extensions/RIGC_rig"),
+          codes::kRigIndex, place,
           fmt::format("\"{}\" of rig {} says that it is node {} of {}, which it cannot be",
                       printable(node.name), rig.id, recorded, count));
     } else if (at < 0 && has_place) {
       diagnostics.report(
-          codes::kNodeLost, Place(file.path, "/extensions/RIGC_rig"),
+          codes::kNodeLost, place,
           fmt::format("no node stands for \"{}\" of rig {}", printable(node.name), rig.id));
     } else if (at >= 0 && !taken.insert(at).second) {
       diagnostics.report(
@@ -94,7 +102,11 @@ bool resolve_nodes(const File& file, const Identities& identities, Rig& rig, std
 }
 
 /// Joints of the model and the ancestor where they are now.
-void update_foreign_nodes(const Slim& slim, Rig& rig) {
+bool update_foreign_nodes(const File& file, const Slim& slim, Text& text,
+                          Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.errors();
+  const auto count = static_cast<int>(slim.nodes.size());
+  Rig& rig = text.rig;
   std::map<JointKey, int> by_key;
   bool found_root = false;
   for (const NodeId id : rig.scene.nodes()) {
@@ -105,59 +117,77 @@ void update_foreign_nodes(const Slim& slim, Rig& rig) {
     rig.ancestor = slim.node(rig.nodes[id.index]).parent;
     found_root = true;
   }
-  for (tags::TaggedJoint& joint : rig.skeleton.joints) {
+  const auto check = [&](int node, const std::string& member) {
+    if (node >= count)
+      diagnostics.report(codes::kRigIndex, Place(file.path, text.pointer + member),
+                         fmt::format("there is no node {}: the file has {}", node, count));
+  };
+  for (std::size_t i = 0; i < rig.skeleton.joints.size(); ++i) {
+    tags::TaggedJoint& joint = rig.skeleton.joints[i];
     const auto found = by_key.find(joint.key);
     if (joint.foreign_node >= 0 && found != by_key.end()) joint.foreign_node = found->second;
+    check(joint.foreign_node, fmt::format("/joints/{}/foreign_node", i));
   }
-  if (rig.ancestor >= static_cast<int>(slim.nodes.size())) rig.ancestor = -1;
+  check(rig.ancestor, "/ancestor");
+  return diagnostics.errors() == errors;
 }
 
-std::optional<std::vector<Rig>> read_texts(const File& file, const json::Value& extension,
-                                           Diagnostics& diagnostics) {
+std::optional<std::vector<Text>> read_texts(const File& file, const json::Value& extension,
+                                            Origins origins, Diagnostics& diagnostics) {
   const auto version = extension["version"].integer();
   if (!version || *version < 1 || *version > kRigVersionNumber) {
-    diagnostics.report(codes::kRigVersion, Place(file.path, "/extensions/RIGC_rig"),
+    const json::Value at = extension["version"] ? extension["version"] : extension;
+    diagnostics.report(codes::kRigVersion, Place(file.path, at.pointer()),
                        version ? fmt::format("RIGC_rig has version {}; this rigc reads version {}",
                                              *version, kRigVersionNumber)
-                               : std::string("RIGC_rig has no version"));
+                               : std::string("RIGC_rig has no version that is a number"));
     return std::nullopt;
   }
   JsonReader reader(file.path, diagnostics);
-  std::vector<Rig> rigs;
+  std::vector<Text> texts;
   std::set<std::uint32_t> ids;
   bool complete = true;
+  std::size_t node_count = 0;
   for (const json::Value& item : reader.objects(extension, "rigs", kMostRigs, Need::required)) {
-    auto rig = from_json(item, file.path, diagnostics);
+    node_count += item["nodes"].size();
+    if (node_count > kMostNodes) {
+      reader.fail(codes::kRigTooLarge, item["nodes"],
+                  fmt::format("all rigs together have more than {} nodes", kMostNodes));
+      break;
+    }
+    auto rig = from_json(item, file.path, diagnostics, origins);
     complete = complete && rig;
     if (!rig) continue;
     if (!ids.insert(rig->id).second)
       reader.fail(codes::kRigDuplicate, item["id"], fmt::format("there are two rigs {}", rig->id));
-    rigs.push_back(std::move(*rig));
+    texts.push_back({std::move(*rig), item.pointer()});
   }
   if (!complete || !reader.ok()) return std::nullopt;
-  std::stable_sort(rigs.begin(), rigs.end(),
-                   [](const Rig& a, const Rig& b) { return a.id < b.id; });
-  return rigs;
+  std::stable_sort(texts.begin(), texts.end(),
+                   [](const Text& a, const Text& b) { return a.rig.id < b.rig.id; });
+  return texts;
 }
 
 }  // namespace
 
-std::optional<std::vector<Rig>> read_rigs(const File& file, Diagnostics& diagnostics) {
+std::optional<std::vector<Rig>> read_rigs(const File& file, Diagnostics& diagnostics,
+                                          Origins origins) {
   const json::Value extension = file.root()["extensions"]["RIGC_rig"];
   if (!extension) return std::vector<Rig>();
-  auto rigs = read_texts(file, extension, diagnostics);
+  auto texts = read_texts(file, extension, origins, diagnostics);
   const auto nodes = file.root()["nodes"].items();
   const auto identities = read_identities(file, nodes, diagnostics);
-  if (!rigs || !identities) return std::nullopt;
-  const auto slim = read_slim(file, diagnostics);
+  if (!texts || !identities) return std::nullopt;
+  const auto slim = read_slim(file, diagnostics, false);
   if (!slim) return std::nullopt;
   std::set<int> taken;
   bool complete = true;
-  for (Rig& rig : *rigs) {
-    if (!resolve_nodes(file, *identities, rig, taken, diagnostics)) complete = false;
-    if (!complete) continue;
-    update_foreign_nodes(*slim, rig);
-    take_over_pose(file, *slim, nodes, rig, diagnostics);
+  std::vector<Rig> rigs;
+  for (Text& text : *texts) {
+    complete = resolve_nodes(file, *identities, text, taken, diagnostics) && complete;
+    complete = update_foreign_nodes(file, *slim, text, diagnostics) && complete;
+    if (complete) take_over_pose(file, *slim, nodes, text.rig, diagnostics);
+    rigs.push_back(std::move(text.rig));
   }
   if (!complete) return std::nullopt;
   return rigs;

@@ -9,7 +9,7 @@ namespace rigc::gltf {
 
 std::optional<std::vector<Standing>> standings(const File& file, const Rig& rig,
                                                Diagnostics& diagnostics) {
-  const auto slim = read_slim(file, diagnostics);
+  const auto slim = read_slim(file, diagnostics, false);
   if (!slim) return std::nullopt;
   std::vector<scene::NodeId> by_node(slim->nodes.size());
   for (const scene::NodeId id : rig.scene.nodes()) {

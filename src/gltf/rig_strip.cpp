@@ -5,6 +5,7 @@
 
 #include "gltf/rig.h"
 #include "gltf/rig_nodes.h"
+#include "gltf/uses.h"
 
 namespace rigc::gltf {
 namespace {
@@ -15,18 +16,31 @@ using Indices = std::set<int>;
 
 /// Elements of the file that go, by array.
 struct Going {
-  Indices nodes, meshes, materials, accessors, views;
+  Indices nodes, meshes, materials, skins;
 };
 
 int index_of(const Value& value) { return static_cast<int>(value.integer().value_or(-1)); }
 
-/// Nodes of the rigs' part that goes, without those that carry something that stays: others may
-/// have hung things there.
-Indices going_nodes(const std::vector<Value>& nodes, const std::vector<Rig>& rigs) {
+/// Proxy meshes: their nodes carry no identity where a mesh has several skins.
+void add_proxies(const std::vector<Value>& nodes, const Rig& rig, Indices& going) {
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (rig.owned.stays.meshes.contains(index_of(nodes[i]["mesh"])) &&
+        rig.owned.stays.skins.contains(index_of(nodes[i]["skin"])))
+      going.insert(static_cast<int>(i));
+}
+
+/// Nodes of the rigs that go, without those that carry something that stays: others may have hung
+/// things there.
+Indices going_nodes(const std::vector<Value>& nodes, const std::vector<Rig>& rigs, Strip remains) {
   Indices going;
   for (const Rig& rig : rigs) {
-    for (const NodeId id : plan_nodes(rig, rig.ancestor).goes)
-      if (rig.nodes[id.index] >= 0) going.insert(rig.nodes[id.index]);
+    const NodePlan plan = plan_nodes(rig, rig.ancestor);
+    for (const auto* part : {&plan.goes, &plan.stays}) {
+      if (part == &plan.stays && remains == Strip::character) continue;
+      for (const NodeId id : *part)
+        if (rig.nodes[id.index] >= 0) going.insert(rig.nodes[id.index]);
+    }
+    if (remains == Strip::nothing) add_proxies(nodes, rig, going);
   }
   std::vector<int> parents(nodes.size(), -1);
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -43,19 +57,6 @@ Indices going_nodes(const std::vector<Value>& nodes, const std::vector<Rig>& rig
   return going;
 }
 
-/// Accessors that a mesh names.
-Indices accessors_of(const Value& mesh) {
-  Indices out;
-  for (const Value& primitive : mesh["primitives"].items()) {
-    for (const auto& [name, accessor] : primitive["attributes"].members())
-      out.insert(index_of(accessor));
-    for (const Value& target : primitive["targets"].items())
-      for (const auto& [name, accessor] : target.members()) out.insert(index_of(accessor));
-    if (primitive["indices"]) out.insert(index_of(primitive["indices"]));
-  }
-  return out;
-}
-
 Indices materials_of(const Value& mesh) {
   Indices out;
   for (const Value& primitive : mesh["primitives"].items())
@@ -67,58 +68,58 @@ Indices mesh_of(const Value& node) {
   return node["mesh"] ? Indices{index_of(node["mesh"])} : Indices{};
 }
 
-Indices view_of(const Value& accessor) {
-  return accessor["bufferView"] ? Indices{index_of(accessor["bufferView"])} : Indices{};
+Indices skin_of(const Value& node) {
+  return node["skin"] ? Indices{index_of(node["skin"])} : Indices{};
 }
 
-bool owned(const std::vector<Rig>& rigs, Range Owned::Part::*range, int index) {
-  return std::any_of(rigs.begin(), rigs.end(),
-                     [&](const Rig& rig) { return (rig.owned.goes.*range).contains(index); });
-}
+/// Which elements of an array are the rigs' to take away.
+struct Taking {
+  const std::vector<Rig>& rigs;
+  Strip remains;
+  bool operator()(Slots Owned::Part::*slots, int index) const {
+    return std::any_of(rigs.begin(), rigs.end(), [&](const Rig& rig) {
+      return (rig.owned.goes.*slots).contains(index) ||
+             (remains == Strip::nothing && (rig.owned.stays.*slots).contains(index));
+    });
+  }
+};
 
 /// What the users that go name, the rigs own, and no user that stays names.
 template <class Named>
 Indices released(const std::vector<Value>& users, const Indices& going_users, Named named,
-                 const std::vector<Rig>& rigs, Range Owned::Part::*range) {
+                 const Taking& taking, Slots Owned::Part::*slots) {
   Indices going, staying;
   for (std::size_t i = 0; i < users.size(); ++i) {
     const bool goes = going_users.count(static_cast<int>(i)) != 0;
     for (const int index : named(users[i])) (goes ? going : staying).insert(index);
   }
-  std::erase_if(going,
-                [&](int index) { return staying.count(index) || !owned(rigs, range, index); });
+  std::erase_if(going, [&](int index) { return staying.count(index) || !taking(slots, index); });
   return going;
 }
 
-Going find_going(const File& file, const std::vector<Rig>& rigs) {
-  const Value root = file.root();
+Going find_going(const File& file, const Taking& taking) {
   Going going;
-  const auto nodes = root["nodes"].items();
-  const auto meshes = root["meshes"].items();
-  going.nodes = going_nodes(nodes, rigs);
-  going.meshes = released(nodes, going.nodes, mesh_of, rigs, &Owned::Part::meshes);
-  going.materials = released(meshes, going.meshes, materials_of, rigs, &Owned::Part::materials);
-  going.accessors = released(meshes, going.meshes, accessors_of, rigs, &Owned::Part::accessors);
-  for (const Value& skin : root["skins"].items())
-    going.accessors.erase(index_of(skin["inverseBindMatrices"]));
-  for (const Value& animation : root["animations"].items())
-    for (const Value& sampler : animation["samplers"].items())
-      for (const char* end : {"input", "output"}) going.accessors.erase(index_of(sampler[end]));
-  const auto accessors = root["accessors"].items();
-  going.views = released(accessors, going.accessors, view_of, rigs, &Owned::Part::buffer_views);
-  for (const Value& image : root["images"].items())
-    going.views.erase(index_of(image["bufferView"]));
+  const auto nodes = file.root()["nodes"].items();
+  const auto meshes = file.root()["meshes"].items();
+  going.nodes = going_nodes(nodes, taking.rigs, taking.remains);
+  going.meshes = released(nodes, going.nodes, mesh_of, taking, &Owned::Part::meshes);
+  going.skins = released(nodes, going.nodes, skin_of, taking, &Owned::Part::skins);
+  going.materials = released(meshes, going.meshes, materials_of, taking, &Owned::Part::materials);
   return going;
 }
 
-/// Cuts what is at the end of an array, puts placeholders for the rest.
-void remove(Patch& patch, const File& file, std::string_view array, const Indices& going) {
-  int size = patch.count(array);
-  const bool at_end = size == static_cast<int>(file.root()[array].size());
-  while (at_end && size > 0 && going.count(size - 1)) --size;
-  patch.truncate(array, size);
-  for (const int index : going)
-    if (index < size) patch.replace(array, index, "");
+/// Accessors and buffer views of meshes and skins that go.
+void release_data(Patch& patch, const File& file, const Going& going, const Taking& taking) {
+  Uses uses(file);
+  const auto drop = [&](int accessor) {
+    if (taking(&Owned::Part::accessors, accessor)) uses.drop_accessor(patch, accessor, true);
+  };
+  const auto meshes = file.root()["meshes"].items();
+  for (const int mesh : going.meshes)
+    for (const int accessor : accessors_of(meshes[static_cast<std::size_t>(mesh)])) drop(accessor);
+  const auto skins = file.root()["skins"].items();
+  for (const int skin : going.skins)
+    drop(index_of(skins[static_cast<std::size_t>(skin)]["inverseBindMatrices"]));
 }
 
 void unlink_nodes(Patch& patch, const std::vector<Value>& nodes, const Value& scenes,
@@ -140,25 +141,26 @@ void clean_nodes(Patch& patch, const std::vector<Value>& nodes, const Going& goi
   for (const NodeId id : rig.scene.nodes()) {
     const int node = rig.nodes[id.index];
     if (node < 0 || going.nodes.count(node)) continue;
-    patch.set_extra(node, "rigc", "");
+    if (!has_foreign_mark(nodes[static_cast<std::size_t>(node)])) patch.set_extra(node, "rigc", "");
     for (const scene::UserAttribute& attribute : rig.scene[id].user)
       if (attribute.keyable && plan.foreign[id.index] < 0)
         patch.set_extra(node, attribute.name, "");
     const int mesh = index_of(nodes[static_cast<std::size_t>(node)]["mesh"]);
-    if (rig.scene[id].kind == scene::Kind::control && owned({rig}, &Owned::Part::meshes, mesh))
+    if (rig.scene[id].kind == scene::Kind::control && rig.owned.goes.meshes.contains(mesh))
       patch.set_member("nodes", node, "mesh", "");
   }
 }
 
 /// The texts of the rigs that stay; empty where none does.
-std::string remaining_rigs(const std::string& extension, const std::vector<Rig>& stripped) {
+std::string remaining_rigs(const Patch& patch, const std::vector<Rig>& stripped) {
+  const std::string extension = patch.root_extension("RIGC_rig");
   Diagnostics none;
   const auto document = json::parse(extension, "", 0, none);
   if (!document) return {};
   json::Writer writer;
   std::size_t count = 0;
   writer.begin_object().key("version").raw(document->root()["version"].text());
-  writer.key("rigs").begin_array();
+  writer.key("before").raw(patch.before()).key("rigs").begin_array();
   for (const Value& item : document->root()["rigs"].items()) {
     const bool goes = std::any_of(stripped.begin(), stripped.end(), [&](const Rig& rig) {
       return item["id"].integer() == static_cast<std::int64_t>(rig.id);
@@ -173,17 +175,21 @@ std::string remaining_rigs(const std::string& extension, const std::vector<Rig>&
 
 }  // namespace
 
-std::set<int> strip_rigs(Patch& patch, const File& file, const std::vector<Rig>& rigs) {
+std::set<int> strip_rigs(Patch& patch, const File& file, const std::vector<Rig>& rigs,
+                         Strip remains) {
   const auto nodes = file.root()["nodes"].items();
-  const Going going = find_going(file, rigs);
+  const Taking taking{rigs, remains};
+  const Going going = find_going(file, taking);
   for (const Rig& rig : rigs) clean_nodes(patch, nodes, going, rig);
   unlink_nodes(patch, nodes, file.root()["scenes"], going.nodes);
-  remove(patch, file, "nodes", going.nodes);
-  remove(patch, file, "meshes", going.meshes);
-  remove(patch, file, "materials", going.materials);
-  remove(patch, file, "accessors", going.accessors);
-  remove(patch, file, "bufferViews", going.views);
-  patch.set_root_extension("RIGC_rig", remaining_rigs(patch.root_extension("RIGC_rig"), rigs));
+  release_data(patch, file, going, taking);
+  const std::pair<const char*, const Indices*> arrays[] = {{"nodes", &going.nodes},
+                                                           {"meshes", &going.meshes},
+                                                           {"materials", &going.materials},
+                                                           {"skins", &going.skins}};
+  for (const auto& [array, indices] : arrays)
+    for (const int index : *indices) patch.release(array, index);
+  patch.set_root_extension("RIGC_rig", remaining_rigs(patch, rigs));
   return going.nodes;
 }
 

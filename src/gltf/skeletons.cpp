@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 
 #include "base/text.h"
@@ -18,6 +19,9 @@ namespace rigc::gltf {
 namespace {
 
 using math::Affine;
+
+/// Determinants below this are 0: a node scaled by 1e-10 along each axis.
+constexpr double kFlat = 1e-30;
 
 /// Local matrices that a clip gives to nodes at a time.
 std::map<int, Affine> sample_clip(const Slim& slim, const anim::Clip& clip, double seconds) {
@@ -104,6 +108,31 @@ tags::ForeignSkeleton assemble(const Slim& slim, const Bones& bones,
   return skeleton;
 }
 
+bool is_finite(const Affine& a) {
+  for (const math::Vec3& v : {a.linear.x, a.linear.y, a.linear.z, a.origin})
+    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) return false;
+  return true;
+}
+
+/// Scale 0 above a skeleton, or its inverse, has no meaning for the rig that would lie in it.
+void check_rests(const File& file, const tags::ForeignSkeleton& skeleton,
+                 Diagnostics& diagnostics) {
+  if (skeleton.ancestor >= 0 &&
+      !(std::abs(math::determinant(skeleton.ancestor_world.linear)) > kFlat)) {
+    diagnostics.report(
+        codes::kRestUndefined, Place(file.path, fmt::format("/nodes/{}", skeleton.ancestor)),
+        fmt::format("node {}, which the skeleton hangs under, has scale 0", skeleton.ancestor));
+    return;
+  }
+  for (const tags::ForeignJoint& joint : skeleton.joints) {
+    if (is_finite(joint.rest)) continue;
+    diagnostics.report(codes::kRestUndefined,
+                       Place(file.path, fmt::format("/nodes/{}", joint.node)),
+                       fmt::format("the rest pose of \"{}\" is not finite", printable(joint.name)));
+    return;
+  }
+}
+
 }  // namespace
 
 std::optional<std::vector<tags::ForeignSkeleton>> read_skeletons(const File& file,
@@ -130,7 +159,9 @@ std::optional<std::vector<tags::ForeignSkeleton>> read_skeletons(const File& fil
       placed = *std::move(bind);
     }
     tags::ForeignSkeleton skeleton = assemble(*slim, bones, placed, posed, humanoid);
+    skeleton.file = file.path;
     skeleton.notes = std::move(notes);
+    check_rests(file, skeleton, diagnostics);
     result.push_back(std::move(skeleton));
   }
   if (diagnostics.errors() != errors) return std::nullopt;

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The one file that knows tinygltf: it reads a slimmed text of what rigc must understand, after our
-// own checks. tinygltf drops what it does not know and crashes on some of it, so nothing else is
-// shown to it. Test: tests/gltf/clips_test.cpp, tests/gltf/skeletons_test.cpp
+// The one file that knows tinygltf: it reads a slimmed text of nodes, skins and animations, after
+// our own checks. tinygltf drops what it does not know and crashes on some of it, so nothing else
+// is shown to it; accessors and views, which are the most and only numbers, are read here. Test:
+// tests/gltf/clips_test.cpp, tests/gltf/skeletons_test.cpp
 #include "gltf/slim.h"
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
+#include <span>
+
 #include "base/text.h"
+#include "gltf/check.h"
 #include "gltf/codes.h"
 
 namespace rigc::gltf {
@@ -44,79 +49,36 @@ void copy_skin(json::Writer& writer, const json::Value& skin) {
   copy_integer_list(writer, skin, "joints");
 }
 
-void copy_view(json::Writer& writer, const json::Value& view) {
-  copy_integers(writer, view, {"buffer", "byteOffset", "byteLength", "byteStride"});
-}
-
-void copy_accessor(json::Writer& writer, const json::Value& accessor) {
-  copy_integers(writer, accessor, {"bufferView", "byteOffset", "componentType", "count"});
-  copy_numbers(writer, accessor, {"type", "normalized"});
-  const json::Value sparse = accessor["sparse"];
-  if (!sparse) return;
-  writer.key("sparse").begin_object();
-  copy_integers(writer, sparse, {"count"});
-  for (const char* half : {"indices", "values"}) {
-    writer.key(half).begin_object();
-    copy_integers(writer, sparse[half], {"bufferView", "byteOffset", "componentType"});
-    writer.end_object();
-  }
-  writer.end_object();
-}
-
 /// Whether tinygltf can hold the channel.
 bool is_plain(const json::Value& channel) {
   return channel["target"]["node"] && channel["target"]["path"].string() != "pointer";
 }
 
-void copy_animation(json::Writer& writer, const json::Value& animation) {
-  copy_numbers(writer, animation, {"name"});
-  writer.key("samplers").begin_array();
-  for (const json::Value& sampler : animation["samplers"].items()) {
-    writer.begin_object();
-    copy_integers(writer, sampler, {"input", "output"});
-    copy_numbers(writer, sampler, {"interpolation"});
-    writer.end_object();
-  }
-  writer.end_array().key("channels").begin_array();
-  for (const json::Value& channel : animation["channels"].items()) {
-    if (!is_plain(channel)) continue;
-    writer.begin_object();
-    copy_integers(writer, channel, {"sampler"});
-    writer.key("target").begin_object();
-    copy_integers(writer, channel["target"], {"node"});
-    copy_numbers(writer, channel["target"], {"path"});
-    writer.end_object().end_object();
-  }
-  writer.end_array();
+void copy_sampler(json::Writer& writer, const json::Value& sampler) {
+  copy_integers(writer, sampler, {"input", "output"});
+  copy_numbers(writer, sampler, {"interpolation"});
 }
 
-std::string slim_text(const File& file, bool animations) {
-  struct Part {
-    const char* array;
-    void (*copy)(json::Writer&, const json::Value&);
-  };
-  constexpr Part kParts[] = {{"nodes", copy_node},
-                             {"skins", copy_skin},
-                             {"bufferViews", copy_view},
-                             {"accessors", copy_accessor},
-                             {"animations", copy_animation}};
-  json::Writer writer;
-  writer.begin_object();
-  writer.key("asset").begin_object().member("version", "2.0").end_object();
-  for (const Part& part : kParts) {
-    const auto items = file.root()[part.array].items();
-    if (items.empty() || (part.copy == copy_animation && !animations)) continue;
-    writer.key(part.array).begin_array();
-    for (const json::Value& item : items) {
-      writer.begin_object();
-      part.copy(writer, item);
-      writer.end_object();
-    }
-    writer.end_array();
-  }
+void copy_channel(json::Writer& writer, const json::Value& channel) {
+  copy_integers(writer, channel, {"sampler"});
+  writer.key("target").begin_object();
+  copy_integers(writer, channel["target"], {"node"});
+  copy_numbers(writer, channel["target"], {"path"});
   writer.end_object();
-  return writer.take();
 }
+
+/// Elements of one array as tinygltf sees them. Its model of a node takes a hundred times the
+/// node's text, so it is shown a few at a time.
+struct Part {
+  const char* before;  ///< of the array in a glTF text
+  const char* after;
+  void (*copy)(json::Writer&, const json::Value&);
+};
+constexpr Part kNodes = {R"("nodes":[)", "]", copy_node};
+constexpr Part kSkins = {R"("skins":[)", "]", copy_skin};
+constexpr Part kSamplers = {R"("animations":[{"samplers":[)", "]}]", copy_sampler};
+constexpr Part kChannels = {R"("animations":[{"channels":[)", "]}]", copy_channel};
+constexpr std::size_t kBatch = 1024;
 
 SlimNode slim_node(const tinygltf::Node& from) {
   SlimNode node;
@@ -139,44 +101,45 @@ SlimNode slim_node(const tinygltf::Node& from) {
   return node;
 }
 
-SlimAccessor slim_accessor(const tinygltf::Accessor& from) {
+int index_of(const json::Value& object, std::string_view key) {
+  return static_cast<int>(object[key].integer().value_or(-1));
+}
+
+std::uint64_t number_of(const json::Value& object, std::string_view key) {
+  return static_cast<std::uint64_t>(object[key].integer().value_or(0));
+}
+
+/// A view whose place in its buffer is only for what a decoder makes (meshopt).
+bool is_unfilled(const json::Value& view, const std::vector<json::Value>& buffers) {
+  const json::Value& buffer = buffers[static_cast<std::size_t>(index_of(view, "buffer"))];
+  for (const auto& [name, extension] : view["extensions"].members())
+    if (buffer["extensions"][name]["fallback"].boolean().value_or(false)) return true;
+  return false;
+}
+
+SlimAccessor slim_accessor(const json::Value& from) {
   SlimAccessor accessor;
-  accessor.view = from.bufferView;
-  accessor.offset = from.byteOffset;
-  accessor.count = from.count;
-  accessor.component = from.componentType;
-  accessor.width = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(from.type));
-  accessor.normalised = from.normalized;
-  if (!from.sparse.isSparse) return accessor;
-  accessor.sparse.count = static_cast<std::uint64_t>(from.sparse.count);
-  accessor.sparse.index_view = from.sparse.indices.bufferView;
-  accessor.sparse.index_offset = static_cast<std::uint64_t>(from.sparse.indices.byteOffset);
-  accessor.sparse.index_component = from.sparse.indices.componentType;
-  accessor.sparse.value_view = from.sparse.values.bufferView;
-  accessor.sparse.value_offset = static_cast<std::uint64_t>(from.sparse.values.byteOffset);
+  accessor.view = index_of(from, "bufferView");
+  accessor.offset = number_of(from, "byteOffset");
+  accessor.count = number_of(from, "count");
+  accessor.component = index_of(from, "componentType");
+  accessor.width = static_cast<int>(component_count(from["type"].string().value_or("")));
+  accessor.normalised = from["normalized"].boolean().value_or(false);
+  const json::Value sparse = from["sparse"];
+  if (!sparse) return accessor;
+  const json::Value indices = sparse["indices"], values = sparse["values"];
+  accessor.sparse.count = number_of(sparse, "count");
+  accessor.sparse.index_view = index_of(indices, "bufferView");
+  accessor.sparse.index_offset = number_of(indices, "byteOffset");
+  accessor.sparse.index_component = index_of(indices, "componentType");
+  accessor.sparse.value_view = index_of(values, "bufferView");
+  accessor.sparse.value_offset = number_of(values, "byteOffset");
   return accessor;
 }
 
 anim::Interpolation interpolation(const std::string& word) {
   if (word == "STEP") return anim::Interpolation::step;
   return word == "CUBICSPLINE" ? anim::Interpolation::cubic : anim::Interpolation::linear;
-}
-
-SlimAnimation slim_animation(const tinygltf::Animation& from, const json::Value& original) {
-  SlimAnimation animation;
-  animation.name = from.name;
-  for (const tinygltf::AnimationSampler& sampler : from.samplers)
-    animation.samplers.push_back(
-        {sampler.input, sampler.output, interpolation(sampler.interpolation)});
-  const auto channels = original["channels"].items();
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < channels.size() && next < from.channels.size(); ++i) {
-    if (!is_plain(channels[i])) continue;
-    const tinygltf::AnimationChannel& channel = from.channels[next++];
-    animation.channels.push_back(
-        {static_cast<int>(i), channel.sampler, channel.target_node, channel.target_path});
-  }
-  return animation;
 }
 
 /// Parents, order and world matrices, without recursion: hierarchies may be as deep as the file has
@@ -198,41 +161,102 @@ void link(Slim& slim) {
   }
 }
 
-Slim convert(const tinygltf::Model& model, const File& file) {
-  Slim slim;
-  for (const tinygltf::Node& node : model.nodes) slim.nodes.push_back(slim_node(node));
-  link(slim);
-  for (const tinygltf::Skin& skin : model.skins)
-    slim.skins.push_back({skin.name, skin.joints, skin.inverseBindMatrices});
-  for (const tinygltf::BufferView& view : model.bufferViews)
-    slim.views.push_back({view.buffer, view.byteOffset, view.byteLength, view.byteStride});
-  for (const tinygltf::Accessor& accessor : model.accessors)
-    slim.accessors.push_back(slim_accessor(accessor));
-  const auto animations = file.root()["animations"].items();
-  for (std::size_t i = 0; i < model.animations.size(); ++i)
-    slim.animations.push_back(slim_animation(model.animations[i], animations[i]));
-  return slim;
+std::string slim_text(std::span<const json::Value> items, const Part& part) {
+  std::string text = R"({"asset":{"version":"2.0"},)";
+  text += part.before;
+  for (const json::Value& item : items) {
+    json::Writer writer;
+    writer.begin_object();
+    part.copy(writer, item);
+    if (&item != items.data()) text += ',';
+    text += writer.end_object().text();
+  }
+  return text + part.after + '}';
 }
+
+class SlimReader {
+ public:
+  SlimReader(const File& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
+
+  bool read(Slim& slim, bool animations) {
+    const json::Value root = file_.root();
+    const auto buffers = root["buffers"].items();
+    for (const json::Value& view : root["bufferViews"].items())
+      slim.views.push_back({index_of(view, "buffer"), number_of(view, "byteOffset"),
+                            number_of(view, "byteLength"), number_of(view, "byteStride"),
+                            is_unfilled(view, buffers)});
+    for (const json::Value& accessor : root["accessors"].items())
+      slim.accessors.push_back(slim_accessor(accessor));
+    bool good = each(root["nodes"].items(), kNodes, [&](const tinygltf::Model& model) {
+      for (const tinygltf::Node& node : model.nodes) slim.nodes.push_back(slim_node(node));
+      return model.nodes.size();
+    });
+    good = good && each(root["skins"].items(), kSkins, [&](const tinygltf::Model& model) {
+             for (const tinygltf::Skin& skin : model.skins)
+               slim.skins.push_back({skin.name, skin.joints, skin.inverseBindMatrices});
+             return model.skins.size();
+           });
+    if (!good) return false;
+    link(slim);
+    for (const json::Value& animation : root["animations"].items())
+      if (animations && !read_animation(animation, slim.animations.emplace_back())) return false;
+    return true;
+  }
+
+ private:
+  bool read_animation(const json::Value& from, SlimAnimation& animation) {
+    animation.name = from["name"].string().value_or("");
+    std::vector<json::Value> plain;
+    std::vector<int> places;
+    const auto channels = from["channels"].items();
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      if (!is_plain(channels[i])) continue;
+      plain.push_back(channels[i]);
+      places.push_back(static_cast<int>(i));
+    }
+    const bool good = each(from["samplers"].items(), kSamplers, [&](const tinygltf::Model& model) {
+      for (const tinygltf::AnimationSampler& sampler : model.animations.at(0).samplers)
+        animation.samplers.push_back(
+            {sampler.input, sampler.output, interpolation(sampler.interpolation)});
+      return model.animations[0].samplers.size();
+    });
+    return good && each(plain, kChannels, [&](const tinygltf::Model& model) {
+             for (const tinygltf::AnimationChannel& channel : model.animations.at(0).channels)
+               animation.channels.push_back({places.at(animation.channels.size()), channel.sampler,
+                                             channel.target_node, channel.target_path});
+             return model.animations[0].channels.size();
+           });
+  }
+
+  /// Shows elements to tinygltf; `use` takes what it made of them and says how many there were.
+  template <class Use>
+  bool each(const std::vector<json::Value>& items, const Part& part, const Use& use) {
+    for (std::size_t first = 0; first < items.size(); first += kBatch) {
+      const std::size_t count = std::min(items.size() - first, kBatch);
+      tinygltf::Model model;
+      std::string error, warning;
+      const std::string text = slim_text({items.data() + first, count}, part);
+      const bool read = tinygltf::TinyGLTF().LoadASCIIFromString(
+          &model, &error, &warning, text.data(), static_cast<unsigned>(text.size()), "");
+      if (read && use(model) == count) continue;
+      diagnostics_.report(codes::kReader, Place(file_.path, items[first].pointer()),
+                          "tinygltf cannot read this, or one of the next " +
+                              std::to_string(count - 1) + ": " + printable(trim(error)));
+      return false;
+    }
+    return true;
+  }
+
+  const File& file_;
+  Diagnostics& diagnostics_;
+};
 
 }  // namespace
 
 std::optional<Slim> read_slim(const File& file, Diagnostics& diagnostics, bool animations) {
-  tinygltf::TinyGLTF reader;
-  tinygltf::Model model;
-  std::string error, warning;
-  const std::string text = slim_text(file, animations);
-  const json::Value root = file.root();
-  const bool read = reader.LoadASCIIFromString(&model, &error, &warning, text.data(),
-                                               static_cast<unsigned>(text.size()), "");
-  const bool complete = model.nodes.size() == root["nodes"].size() &&
-                        model.skins.size() == root["skins"].size() &&
-                        model.accessors.size() == root["accessors"].size() &&
-                        model.bufferViews.size() == root["bufferViews"].size() &&
-                        model.animations.size() == (animations ? root["animations"].size() : 0);
-  if (read && complete) return convert(model, file);
-  diagnostics.report(codes::kReader, Place(file.path),
-                     "tinygltf cannot read the nodes and animations: " + printable(trim(error)));
-  return std::nullopt;
+  Slim slim;
+  if (!SlimReader(file, diagnostics).read(slim, animations)) return std::nullopt;
+  return slim;
 }
 
 }  // namespace rigc::gltf

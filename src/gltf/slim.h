@@ -33,6 +33,7 @@ struct SlimSkin {
 struct SlimView {
   int buffer = -1;
   std::uint64_t offset = 0, length = 0, stride = 0;  ///< stride 0: packed
+  bool unfilled = false;  ///< an extension leaves the buffer's bytes to a decoder
 };
 
 struct SlimAccessor {

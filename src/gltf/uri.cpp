@@ -32,6 +32,7 @@ int base64_value(char c) {
 std::optional<std::string> percent_decoded(std::string_view uri) {
   std::string out;
   for (std::size_t i = 0; i < uri.size(); ++i) {
+    if (uri[i] == '\0') return std::nullopt;
     if (uri[i] != '%') {
       out += uri[i];
       continue;

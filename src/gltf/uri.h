@@ -8,7 +8,7 @@
 
 namespace rigc::gltf {
 
-/// Percent-escapes resolved; nothing where one is broken or gives a zero byte.
+/// Percent-escapes resolved; nothing where one is broken, or where there is a zero byte.
 std::optional<std::string> percent_decoded(std::string_view uri);
 
 bool is_data_uri(std::string_view uri);

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Writes a clip into an animation: its channels replace those with the same target, everything else
+// Writes clips into animations: their channels replace those with the same target, everything else
 // stays. Test: tests/gltf/clips_test.cpp
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <map>
 #include <set>
 
 #include "gltf/clips.h"
+#include "gltf/float_text.h"
 #include "gltf/splice.h"
+#include "gltf/uses.h"
 
 namespace rigc::gltf {
 namespace {
@@ -115,41 +118,95 @@ std::string channel_text(const anim::Channel& channel, std::size_t sampler) {
   return writer.take();
 }
 
-/// Puts the clip's channels and samplers behind those of `animation` that stay. Samplers that stay
-/// keep their index: new ones take the places of those that nothing uses any more, then follow.
-std::string merged(const json::Value& animation, const anim::Clip& clip,
-                   const std::vector<int>& dropped, Samplers& samplers) {
-  const std::set<int> drop(dropped.begin(), dropped.end());
-  std::set<std::string> brought;
-  for (const anim::Channel& channel : clip.channels) brought.insert(target_of(channel));
-  Splice channels(animation["channels"]);
-  Splice texts(animation["samplers"]);
-  const auto old = animation["channels"].items();
-  std::vector<bool> used(texts.size(), false), freed(texts.size(), false);
-  for (std::size_t i = old.size(); i-- > 0;) {
-    const bool goes = drop.count(static_cast<int>(i)) != 0 || brought.count(target_of(old[i])) != 0;
-    const auto sampler = static_cast<std::size_t>(old[i]["sampler"].integer().value_or(0));
-    (goes ? freed : used)[sampler] = true;
-    if (goes) channels.erase(i);
+/// An animation of the file with what goes from it.
+class Change {
+ public:
+  Change(const File& file, const ClipChange& change) : clip_(change.clip) {
+    if (clip_.source_animation < 0) return;
+    animation_ =
+        file.root()["animations"].items()[static_cast<std::size_t>(clip_.source_animation)];
+    samplers_ = animation_["samplers"].items();
+    used_.assign(samplers_.size(), false);
+    freed_ = ours_ = used_;
+    const std::set<int> drop(change.dropped_channels.begin(), change.dropped_channels.end());
+    std::set<std::string> brought;
+    for (const anim::Channel& channel : clip_.channels) brought.insert(target_of(channel));
+    const auto channels = animation_["channels"].items();
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      const bool goes =
+          drop.count(static_cast<int>(i)) != 0 || brought.count(target_of(channels[i])) != 0;
+      const auto sampler = static_cast<std::size_t>(channels[i]["sampler"].integer().value_or(0));
+      (goes ? freed_ : used_)[sampler] = true;
+      if (goes && channels[i]["extras"]["rigc"].string() == kBakedMark) ours_[sampler] = true;
+      if (goes) going_.push_back(i);
+    }
+    for (std::size_t i = 0; i < samplers_.size(); ++i)
+      if (samplers_[i]["extras"]["rigc"]["free"]) freed_[i] = true;
   }
-  std::size_t place = 0;
-  const auto is_free = [&](std::size_t i) { return freed[i] && !used[i]; };
-  for (const anim::Channel& channel : clip.channels) {
-    while (place < used.size() && !is_free(place)) ++place;
-    if (place < used.size())
-      texts.replace(place, samplers.text(channel));
-    else
-      texts.append(samplers.text(channel));
-    channels.append(channel_text(channel, place++));
+
+  /// Releases the accessors of samplers that nothing uses any more.
+  void release(Uses& uses, Patch& patch) const {
+    for (std::size_t i = 0; i < samplers_.size(); ++i)
+      for (const char* end : {"input", "output"})
+        if (is_free(i))
+          uses.drop_accessor(patch, static_cast<int>(samplers_[i][end].integer().value_or(-1)),
+                             ours_[i]);
   }
-  if (channels.size() == 0) return {};
-  while (texts.size() > place && texts.size() <= used.size() && is_free(texts.size() - 1))
-    texts.truncate(texts.size() - 1);
-  Splice whole(animation);
-  whole.set("channels", channels.text());
-  whole.set("samplers", texts.text());
-  return whole.text();
-}
+
+  /// The animation with the clip's channels behind those that stay; empty where none is left.
+  /// Samplers that stay keep their index: new ones take the places of those that nothing uses any
+  /// more, then follow.
+  std::string text(Samplers& samplers) const {
+    Splice channels(animation_["channels"]);
+    Splice texts(animation_["samplers"]);
+    for (std::size_t i = going_.size(); i-- > 0;) channels.erase(going_[i]);
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < samplers_.size(); ++i)
+      if (is_free(i)) places.push_back(i);
+    std::size_t next = 0;
+    for (const anim::Channel& channel : clip_.channels) {
+      std::size_t place = texts.size();
+      if (next < places.size())
+        texts.replace(place = places[next++], samplers.text(channel));
+      else
+        texts.append(samplers.text(channel));
+      channels.append(channel_text(channel, place));
+    }
+    if (channels.size() == 0) return {};
+    while (places.size() > next && places.back() + 1 == texts.size()) {
+      texts.truncate(places.back());
+      places.pop_back();
+    }
+    for (; next < places.size(); ++next) texts.replace(places[next], placeholder(texts, places));
+    Splice whole(animation_);
+    whole.set("channels", channels.text());
+    whole.set("samplers", texts.text());
+    return whole.text();
+  }
+
+ private:
+  bool is_free(std::size_t sampler) const { return freed_[sampler] && !used_[sampler]; }
+
+  /// A sampler whose index must stay, with the accessors of one that is used.
+  std::string placeholder(const Splice& texts, const std::vector<std::size_t>& places) const {
+    std::size_t used = 0;
+    while (std::find(places.begin(), places.end(), used) != places.end()) ++used;
+    Diagnostics none;
+    const auto document = json::parse(std::string(texts.value(used)), "", 0, none);
+    assert(document);
+    json::Writer writer;
+    writer.begin_object().key("input").raw(document->root()["input"].text());
+    writer.key("output").raw(document->root()["output"].text());
+    return writer.key("extras").raw(R"({"rigc":{"free":true}})").end_object().take();
+  }
+
+  const anim::Clip& clip_;
+  json::Value animation_;
+  std::vector<json::Value> samplers_;
+  /// By sampler: a channel that stays uses it, one that goes, one that a bake made and that goes.
+  std::vector<bool> used_, freed_, ours_;
+  std::vector<std::size_t> going_;  ///< channels
+};
 
 std::string fresh(const anim::Clip& clip, Samplers& samplers) {
   json::Writer writer;
@@ -164,21 +221,47 @@ std::string fresh(const anim::Clip& clip, Samplers& samplers) {
   return writer.take();
 }
 
+/// A node that gets channels cannot have a matrix: it becomes the equal translation, rotation and
+/// scale.
+void replace_matrix(Patch& patch, int node) {
+  Diagnostics none;
+  const auto document = json::parse(patch.element("nodes", node), "", 0, none);
+  assert(document);
+  const auto numbers = document->root()["matrix"].items();
+  if (numbers.size() != 16) return;
+  double m[16];
+  for (std::size_t i = 0; i < 16; ++i) m[i] = numbers[i].number().value_or(0);
+  math::Affine matrix;
+  matrix.linear = {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}};
+  matrix.origin = {m[12], m[13], m[14]};
+  const math::Trs local = math::decompose(matrix);
+  patch.set_member("nodes", node, "matrix", "");
+  patch.set_member("nodes", node, "translation", float_list(&local.translation.x, 3));
+  patch.set_member("nodes", node, "rotation", float_list(&local.rotation.x, 4));
+  patch.set_member("nodes", node, "scale", float_list(&local.scale.x, 3));
+}
+
 }  // namespace
 
-void write_clip(Patch& patch, const File& file, const anim::Clip& clip,
-                const std::vector<int>& dropped_channels) {
+void write_clips(Patch& patch, const File& file, const std::vector<ClipChange>& changes) {
+  std::vector<Change> all;
+  for (const ClipChange& change : changes) all.emplace_back(file, change);
+  Uses uses(file);
+  for (const Change& change : all) change.release(uses, patch);
   Samplers samplers(patch);
-  for (const anim::Channel& channel : clip.channels)
-    if (channel.path == anim::Path::attribute) patch.use_extension(kPointer);
-  if (clip.source_animation < 0) {
-    if (!clip.channels.empty()) patch.append("animations", fresh(clip, samplers));
-    return;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const anim::Clip& clip = changes[i].clip;
+    for (const anim::Channel& channel : clip.channels) {
+      if (channel.path == anim::Path::attribute)
+        patch.use_extension(kPointer);
+      else if (channel.path != anim::Path::weights)
+        replace_matrix(patch, channel.node);
+    }
+    if (clip.source_animation >= 0)
+      patch.replace("animations", clip.source_animation, all[i].text(samplers));
+    else if (!clip.channels.empty())
+      patch.append("animations", fresh(clip, samplers));
   }
-  const json::Value animation =
-      file.root()["animations"].items()[static_cast<std::size_t>(clip.source_animation)];
-  patch.replace("animations", clip.source_animation,
-                merged(animation, clip, dropped_channels, samplers));
 }
 
 }  // namespace rigc::gltf

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 namespace rigc::math {
 
@@ -115,6 +116,11 @@ Mat3 orthonormal(const Mat3& m);
 /// A right-handed frame whose x is `primary` (unit) and whose y is `secondary` made perpendicular
 /// to it; where they are parallel, perpendicular(primary).
 Mat3 frame(Vec3 primary, Vec3 secondary);
+
+/// The rotation R with the smallest sum of |to - R * from|^2, where column i of `correlation` is
+/// the sum of to * from[i]. Empty where there is no single one, as for points on a line. Source:
+/// Horn 1987, "Closed-form solution of absolute orientation using unit quaternions".
+std::optional<Quat> fit_rotation(const Mat3& correlation);
 
 Affine compose(const Trs& trs);
 /// T, R = orthonormal(linear), S = diagonal of R^T * linear: exact where there is no shear,

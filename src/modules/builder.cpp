@@ -101,6 +101,11 @@ bool Builder::check_formula(std::string_view parameter, const BoundExpression& b
 void Builder::fail(const Code& code, std::string_view parameter, std::string message,
                    std::string hint) {
   failed_ = true;
+  warn(code, parameter, std::move(message), std::move(hint));
+}
+
+void Builder::warn(const Code& code, std::string_view parameter, std::string message,
+                   std::string hint) {
   const Span span = parameter.empty() ? job_.command.span : parameters_.span(parameter);
   job_.diagnostics.report(code, span, std::move(message), std::move(hint));
 }

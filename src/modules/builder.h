@@ -60,6 +60,11 @@ class Builder {
   Plug add_attribute(NodeId node, scene::UserAttribute attribute) {
     return edit_.add_attribute(node, std::move(attribute));
   }
+  void set_access(const Plug& user, bool keyable, bool hidden) {
+    edit_.set_access(user, keyable, hidden);
+  }
+  /// Puts something between a plug and what drives it.
+  void reconnect(const Plug& from, const Plug& to) { edit_.connect(from, to); }
   /// Refuses a plug that is connected already, whole or in part.
   void connect(const Plug& from, const Plug& to);
   /// Fails where something drives the plug, or a part of it.
@@ -74,6 +79,9 @@ class Builder {
   void fail(const Code& code, std::string_view parameter, std::string message,
             std::string hint = {});
   bool failed() const { return failed_; }
+  /// Reports a warning there; the constructor goes on.
+  void warn(const Code& code, std::string_view parameter, std::string message,
+            std::string hint = {});
 
  private:
   Identifiers identifiers(NodeId joint) const;

@@ -6,10 +6,11 @@
 
 namespace rigc::modules::codes {
 
-inline constexpr Code kNotAChain{460, Severity::error, "joints are no chain",
-                                 "The module needs joints of which each hangs under the one before "
-                                 "it (joints in between are allowed where the "
-                                 "module says so)."};
+inline constexpr Code kNotAChain{
+    460, Severity::error, "joints are no chain",
+    "Joints of a chain are named from first to last: none lies above one "
+    "that comes before it. An `ik_handle` also needs its last joint to hang "
+    "below the first."};
 inline constexpr Code kTooFewJoints{461, Severity::error, "too few joints",
                                     "The module needs more joints than the selectors found."};
 inline constexpr Code kUnknownShape{462, Severity::error, "unknown shape",
@@ -52,9 +53,45 @@ inline constexpr Code kSameAxis{
     474, Severity::error, "one axis for two directions",
     "`aim` and `up` of an aim_constraint name different axes: x, y or z, of either sign."};
 
+inline constexpr Code kNoSolver{480, Severity::error, "no IK solver",
+                                "The parameter names a handle or solver that `ik_handle` made."};
+inline constexpr Code kPoleOnLine{
+    481, Severity::error, "pole on the line of the chain",
+    "A pole on the line from a chain's start to its end says no side to bend to."};
+
+inline constexpr Code kEmptyRange{490, Severity::error, "least value above the largest",
+                                  "No value lies between the limits. Exchange the two."};
+inline constexpr Code kRestOutside{
+    491, Severity::error, "rest lies outside the limits",
+    "A control rests at 0 (scale at 1), and limits are measured from there: the least value is "
+    "never above it and the largest never below."};
+inline constexpr Code kNotMirrored{
+    492, Severity::warning, "limit cannot be mirrored",
+    "The axes of the control on the other side are no mirror image, so the limit was left away "
+    "there. Give the control `orient: bone` or `character`, or limit both sides outside of the "
+    "part."};
+inline constexpr Code kNoLimit{493, Severity::error, "nothing is limited",
+                               "The command gives neither a least nor a largest value."};
+inline constexpr Code kNotLockable{
+    494, Severity::error, "attribute cannot be locked",
+    "Only what animators key can be locked or hidden: translate, rotate and scale of controls, "
+    "their components, and attributes that were added to controls."};
+inline constexpr Code kSettingsDiffer{
+    495, Severity::error, "layer or set has other settings",
+    "Commands that name one layer or set add to it. What they say about it must agree; say it once "
+    "and leave it out in the others."};
+inline constexpr Code kSetInItself{496, Severity::error, "set contains itself",
+                                   "Following `parent` from set to set must never lead back."};
+inline constexpr Code kGroupName{
+    497, Severity::error, "not a name of a layer or set",
+    "Names of layers, sets and switches have letters, digits, `_` and `-`, and do not start with a "
+    "digit."};
+
 inline constexpr const Code* kModulesCodes[] = {
-    &kNotAChain,       &kTooFewJoints,   &kUnknownShape, &kAlreadyDriven,    &kAttributeExists,
-    &kValueDoesNotFit, &kNotSettable,    &kTypesDiffer,  &kNotATransform,    &kUnderItself,
-    &kWeightCount,     &kZeroLengthBone, &kRootExists,   &kNotMadeByCommand, &kSameAxis};
+    &kNotAChain,       &kTooFewJoints,   &kUnknownShape,   &kAlreadyDriven,    &kAttributeExists,
+    &kValueDoesNotFit, &kNotSettable,    &kTypesDiffer,    &kNotATransform,    &kUnderItself,
+    &kWeightCount,     &kZeroLengthBone, &kRootExists,     &kNotMadeByCommand, &kSameAxis,
+    &kNoSolver,        &kPoleOnLine,     &kEmptyRange,     &kRestOutside,      &kNotMirrored,
+    &kNoLimit,         &kNotLockable,    &kSettingsDiffer, &kSetInItself,      &kGroupName};
 
 }  // namespace rigc::modules::codes

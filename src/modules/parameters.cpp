@@ -23,12 +23,18 @@ const T& Parameters::get(std::string_view name) const {
 }
 
 bool Parameters::has(std::string_view name) const { return values_.find(name) != values_.end(); }
+bool Parameters::found_nothing(std::string_view name) const {
+  return empty_.find(name) != empty_.end();
+}
 double Parameters::number(std::string_view name) const { return get<double>(name); }
 bool Parameters::flag(std::string_view name) const { return get<bool>(name); }
 const std::string& Parameters::text(std::string_view name) const { return get<std::string>(name); }
 math::Vec3 Parameters::vec3(std::string_view name) const { return get<math::Vec3>(name); }
 const Literal& Parameters::literal(std::string_view name) const { return get<Literal>(name); }
-Plug Parameters::plug(std::string_view name) const { return get<std::vector<Plug>>(name).front(); }
+Plug Parameters::plug(std::string_view name) const { return plugs(name).front(); }
+const std::vector<Plug>& Parameters::plugs(std::string_view name) const {
+  return get<std::vector<Plug>>(name);
+}
 
 const std::vector<double>& Parameters::numbers(std::string_view name) const {
   return get<std::vector<double>>(name);
@@ -214,6 +220,7 @@ class Binder {
     }
     if (nodes.empty()) {
       if (parameter.required) skipped_ = Skipped{parameter.name};
+      out_.empty_.insert(parameter.name);
       return true;
     }
     if (takes_nodes(parameter.type)) {

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -32,6 +33,8 @@ class Parameters {
                              std::vector<NodeId>, std::vector<Plug>, BoundExpression, Literal>;
 
   bool has(std::string_view name) const;
+  /// Whether a selector that may find nothing (`?`) was written and found nothing.
+  bool found_nothing(std::string_view name) const;
   double number(std::string_view name) const;  ///< float, int, angle (degrees), length (rig units)
   bool flag(std::string_view name) const;
   const std::string& text(std::string_view name) const;  ///< string, enum
@@ -41,6 +44,7 @@ class Parameters {
   NodeId node(std::string_view name) const;                       ///< invalid where it was left out
   const std::vector<NodeId>& nodes(std::string_view name) const;  ///< empty where it was left out
   Plug plug(std::string_view name) const;
+  const std::vector<Plug>& plugs(std::string_view name) const;
   const BoundExpression& expression(std::string_view name) const;
   const Literal& literal(std::string_view name) const;  ///< value
   Span span(std::string_view name) const;  ///< where it was written; the command's where it was not
@@ -51,6 +55,7 @@ class Parameters {
   const T& get(std::string_view name) const;
   std::map<std::string, Value, std::less<>> values_;
   std::map<std::string, Span, std::less<>> spans_;
+  std::set<std::string, std::less<>> empty_;
   Span command_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shared steps, second part: controls under zeros, hanging, driving.
+// Shared steps, third part: controls under zeros, hanging, driving.
 // Test: tests/modules/steps_test.cpp
 #include "modules/steps.h"
 
@@ -126,54 +126,7 @@ void place(Builder& b, NodeId node, NodeId parent, const Affine& frame) {
   b.set({node, transform::kScale}, trs.scale);
 }
 
-/// The control that alone drives a joint, if one does.
-NodeId single_driver(const scene::Scene& scene, NodeId joint) {
-  const auto source = scene.source({joint, transform::kRotation});
-  if (!source || scene[source->node].kind != Kind::parent_constraint) return {};
-  if (scene[source->node].attributes[constraint::kTargets].size() != 1) return {};
-  const auto target = scene.source({source->node, constraint::kTargets, 0});
-  return target && scene[target->node].kind == Kind::control ? target->node : NodeId{};
-}
-
 }  // namespace
-
-bool check_place(Builder& b, NodeId node, std::string_view parameter) {
-  if (scene::spec(b.scene()[node].kind).is_transform) return true;
-  b.fail(codes::kNotATransform, parameter,
-         fmt::format("{} has no place in space", traversal::describe(b.scene(), node)),
-         "name a joint, control or transform");
-  return false;
-}
-
-NodeId space_from(Builder& b, std::string_view parameter, NodeId otherwise) {
-  if (!b.with().has(parameter)) return otherwise;
-  const NodeId space = b.with().node(parameter);
-  return check_place(b, space, parameter) ? space : NodeId{};
-}
-
-bool is_driven(const scene::Scene& scene, NodeId node) {
-  for (const scene::Connection& connection : scene[node].inputs) {
-    if (connection.to.attribute <= transform::kRotate) return true;
-  }
-  return false;
-}
-
-NodeId root_control(const Builder& b) {
-  NodeId found;
-  for (NodeId id : b.index().made_by(b.global(), "root")) {
-    if (b.scene()[id].identity.role == "offset") found = id;
-  }
-  return found;
-}
-
-NodeId space_of(const Builder& b, NodeId joint) {
-  for (NodeId at = b.scene()[joint].parent; at.valid(); at = b.scene()[at].parent) {
-    if (b.scene()[at].kind != Kind::joint || !is_driven(b.scene(), at)) continue;
-    const NodeId control = single_driver(b.scene(), at);
-    return control.valid() ? control : at;
-  }
-  return root_control(b);
-}
 
 Target target(const Builder& b, NodeId node) { return {world_of(node), rest(b, node)}; }
 
@@ -259,18 +212,37 @@ Vec3 side_color(const Builder& b, NodeId joint, std::string_view parameter) {
   return side > threshold ? kLeftColor : side < -threshold ? kRightColor : kMiddleColor;
 }
 
-void drive(Builder& b, NodeId joint, const Target& follows, bool translate) {
-  const NodeId node =
-      make_constraint(b, Kind::parent_constraint, joint, {follows}, {}, true, "driver", joint);
-  const NodeId parent = b.scene()[joint].parent;
-  b.connect({node, constraint::kRotation}, {joint, transform::kRotation});
-  if (translate || !parent.valid()) {
-    b.connect({node, constraint::kTranslate}, {joint, transform::kTranslate});
-  }
-  for (NodeId above = parent; above.valid(); above = b.scene()[above].parent) {
-    if (is_driven(b.scene(), above)) return;
+namespace {
+
+/// Scale comes from the constraint where nothing above the joint is driven.
+void connect_scale(Builder& b, NodeId node, NodeId joint) {
+  for (NodeId at = b.scene()[joint].parent; at.valid(); at = b.scene()[at].parent) {
+    if (is_driven(b.scene(), at)) return;
   }
   b.connect({node, constraint::kScale}, {joint, transform::kScale});
+}
+
+NodeId make_driver(Builder& b, NodeId joint, NodeId follows) {
+  return make_constraint(b, Kind::parent_constraint, joint, {target(b, follows)}, {}, true,
+                         "driver", joint);
+}
+
+}  // namespace
+
+void drive(Builder& b, const ControlSpec& spec, NodeId control) {
+  const NodeId joint = spec.joint;
+  const NodeId node = make_driver(b, joint, control);
+  b.connect({node, constraint::kRotation}, {joint, transform::kRotation});
+  if (spec.translate || !carried_by(b, joint, spec.space)) {
+    b.connect({node, constraint::kTranslate}, {joint, transform::kTranslate});
+  }
+  connect_scale(b, node, joint);
+}
+
+void carry(Builder& b, NodeId joint, NodeId follows) {
+  const NodeId node = make_driver(b, joint, follows);
+  b.connect({node, constraint::kTranslate}, {joint, transform::kTranslate});
+  connect_scale(b, node, joint);
 }
 
 }  // namespace rigc::modules

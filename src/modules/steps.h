@@ -26,12 +26,18 @@ math::Vec3 bone_direction(const Builder& b, NodeId joint);
 /// Length of that bone; for a leaf the length of its parent's, at least 1 % of the character's
 /// height.
 double bone_length(const Builder& b, NodeId joint);
+/// Direction of the bone of a chain's n-th joint: to the next one; of the last, where it has no
+/// child, on from the one before.
+math::Vec3 chain_direction(const Builder& b, const std::vector<NodeId>& chain, std::size_t n);
 /// x along `direction`, y as near as it can be to the character's forward (or up, for bones that
 /// point forward); on mirrored joints x and y are turned round, so that equal local rotations of
 /// both sides mirror each other.
 math::Mat3 bone_frame(const Builder& b, NodeId joint, math::Vec3 direction);
 /// `orient:` of controls and transforms: character, world, joint or bone, at the joint's position.
 math::Affine oriented(const Builder& b, NodeId joint, const std::string& orient);
+/// The same where the joint's bone has another direction than the skeleton says.
+math::Affine oriented(const Builder& b, NodeId joint, const std::string& orient,
+                      math::Vec3 direction);
 AxesFrom axes_from(const std::string& orient);
 bool is_mirrored(const Builder& b, NodeId joint);
 /// An offset along a frame's own axes (`offset:` with `orient:`), so that both sides mirror each
@@ -46,15 +52,22 @@ math::Vec3 character_direction(const Builder& b, const std::string& name);
 /// The innermost control of the rig's root; invalid without one.
 NodeId root_control(const Builder& b);
 /// What a joint's control hangs under where nobody says: the control that alone drives the nearest
-/// driven joint above it, or that joint itself where a blend or solver drives it; else the root
-/// control; else nothing.
+/// driven joint above it in the template's order, or that joint itself where a blend or solver
+/// drives it; else the root control; else nothing.
 NodeId space_of(const Builder& b, NodeId joint);
 /// The skeleton joints from `first` down to `last`, both included; fails where `last` is not below
 /// `first`.
 std::vector<NodeId> chain_between(Builder& b, NodeId first, NodeId last,
                                   std::string_view parameter);
-/// Whether each joint hangs somewhere below the one before it; fails where one does not.
-bool check_descends(Builder& b, const std::vector<NodeId>& joints, std::string_view parameter);
+/// Whether the joints are in order: none lies above one that comes before it in the list, and none
+/// comes twice; fails where one does. They need not hang below one another: models have feet that
+/// hang under the root, and fingers that are siblings.
+bool check_order(Builder& b, const std::vector<NodeId>& joints, std::string_view parameter);
+/// Whether the skeleton itself takes `joint` along with `space`, which is what its control follows:
+/// the joint that moves as `space` does lies above it, or `space` moves no joint and something else
+/// moves one above it. A joint that is not carried gets its translation driven too, so that it
+/// moves as if it hung there.
+bool carried_by(const Builder& b, NodeId joint, NodeId space);
 /// Whether a node has a place in space; fails where it has none.
 bool check_place(Builder& b, NodeId node, std::string_view parameter);
 /// The node of a parameter that something hangs under or follows, or what stands for it where it
@@ -111,10 +124,14 @@ NodeId make_constraint(Builder& b, scene::Kind kind, NodeId driven,
                        const std::vector<Target>& targets, const std::vector<double>& weights,
                        bool maintain, const std::string& role, NodeId owner = {});
 
-/// Makes a joint follow one target: rotation always, translation where `translate` or the joint has
-/// no parent, scale where nothing above the joint is driven (so that master scale enters a skeleton
-/// once).
-void drive(Builder& b, NodeId joint, const Target& follows, bool translate);
+/// Makes a joint follow the control that was made by `spec` for it: rotation always, translation
+/// where the control may be moved or the joint is not carried by what the control follows, scale
+/// where nothing above the joint is driven (so that master scale enters a skeleton once).
+void drive(Builder& b, const ControlSpec& spec, NodeId control);
+
+/// Makes a joint keep its place seen from `follows` (a joint or a control); its rotation is
+/// somebody else's. Scale as in `drive`.
+void carry(Builder& b, NodeId joint, NodeId follows);
 
 bool is_driven(const scene::Scene& scene, NodeId transform);
 

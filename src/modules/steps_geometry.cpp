@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Shared steps, first part: frames from positions and the character, never from joint axes.
 // Test: tests/modules/steps_test.cpp
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "modules/codes.h"
 #include "modules/steps.h"
 
 namespace rigc::modules {
@@ -84,6 +81,16 @@ double bone_length(const Builder& b, NodeId joint) {
   return std::max(bone ? math::length(*bone) : 0.0, 0.01 * b.character().height);
 }
 
+Vec3 chain_direction(const Builder& b, const std::vector<NodeId>& chain, std::size_t n) {
+  const NodeId joint = chain[n];
+  const bool last = n + 1 == chain.size();
+  if (last && (n == 0 || !skeleton_children(b, joint).empty())) return bone_direction(b, joint);
+  const Vec3 bone = last ? position(b, joint) - position(b, chain[n - 1])
+                         : position(b, chain[n + 1]) - position(b, joint);
+  const bool found = math::length(bone) > kShortest * b.character().height;
+  return found ? math::normalised(bone) : bone_direction(b, joint);
+}
+
 bool is_mirrored(const Builder& b, NodeId joint) {
   const tags::TaggedJoint* tagged = b.tagged(joint);
   return tagged && tagged->mirror.mirrored;
@@ -108,41 +115,15 @@ AxesFrom axes_from(const std::string& orient) {
 }
 
 math::Affine oriented(const Builder& b, NodeId joint, const std::string& orient) {
+  return oriented(b, joint, orient, bone_direction(b, joint));
+}
+
+math::Affine oriented(const Builder& b, NodeId joint, const std::string& orient, Vec3 direction) {
   const math::Affine at = rest(b, joint);
   if (orient == "joint") return {math::orthonormal(at.linear), at.origin};
   if (orient == "world") return {Mat3{}, at.origin};
-  if (orient == "bone") return {bone_frame(b, joint, bone_direction(b, joint)), at.origin};
+  if (orient == "bone") return {bone_frame(b, joint, direction), at.origin};
   return {character_axes(b), at.origin};
-}
-
-std::vector<NodeId> chain_between(Builder& b, NodeId first, NodeId last,
-                                  std::string_view parameter) {
-  std::vector<NodeId> chain;
-  for (NodeId at = last; at.valid(); at = b.scene()[at].parent) {
-    chain.push_back(at);
-    if (at == first) {
-      std::reverse(chain.begin(), chain.end());
-      return chain;
-    }
-  }
-  b.fail(codes::kNotAChain, parameter,
-         fmt::format("{} does not hang below {}", traversal::describe(b.scene(), last),
-                     traversal::describe(b.scene(), first)));
-  return {};
-}
-
-bool check_descends(Builder& b, const std::vector<NodeId>& joints, std::string_view parameter) {
-  for (std::size_t i = 1; i < joints.size(); ++i) {
-    NodeId above = b.scene()[joints[i]].parent;
-    while (above.valid() && above != joints[i - 1]) above = b.scene()[above].parent;
-    if (above.valid()) continue;
-    b.fail(codes::kNotAChain, parameter,
-           fmt::format("{} does not hang below {}", traversal::describe(b.scene(), joints[i]),
-                       traversal::describe(b.scene(), joints[i - 1])),
-           "name the joints from first to last");
-    return false;
-  }
-  return true;
 }
 
 }  // namespace rigc::modules

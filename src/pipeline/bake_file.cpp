@@ -12,6 +12,7 @@
 #include "gltf/rig.h"
 #include "pipeline/build.h"
 #include "pipeline/codes.h"
+#include "pipeline/locks.h"
 
 namespace rigc::pipeline {
 namespace {
@@ -108,7 +109,7 @@ void report_clip(const BakeRequest& request, const anim::Clip& clip, const bake:
 /// Bakes one clip over every rig whose controls it animates.
 std::optional<BakedClip> bake_clip(const BakeRequest& request, bake::Options options,
                                    const anim::Clip& clip, const std::vector<Bakeable>& rigs,
-                                   const gltf::File& file, gltf::Patch& patch,
+                                   std::vector<gltf::ClipChange>& changes,
                                    Diagnostics& diagnostics) {
   BakedClip baked{clip.name, true, {}};
   anim::Clip out{clip.name, clip.source_animation, {}};
@@ -119,6 +120,7 @@ std::optional<BakedClip> bake_clip(const BakeRequest& request, bake::Options opt
         [&](const anim::Channel& channel) { return bakeable.controls.count(channel.node) != 0; });
     if (!concerned) continue;
     baked.passed_through = false;
+    report_locked_keys(request.file, *bakeable.rig, clip, diagnostics);
     options.tolerance = request.tolerance_mm / 1000 * bakeable.rig->skeleton.character.unit;
     options.standings = bakeable.standings;
     options.controls_play = request.keep_rig;
@@ -136,24 +138,24 @@ std::optional<BakedClip> bake_clip(const BakeRequest& request, bake::Options opt
     const bool on_driven = driven.count(channel.node) != 0;
     foreign += on_driven && !channel.baked ? 1 : 0;
     const bool on_control = controls.count(channel.node) != 0 && !request.keep_rig;
-    if (on_driven || on_control) dropped.push_back(channel.source_channel);
+    if (on_driven || on_control || channel.baked) dropped.push_back(channel.source_channel);
   }
   report_clip(request, clip, baked.report, foreign, diagnostics);
   // Where the rig stays, the next bake or update must know what it may make again.
   for (anim::Channel& channel : out.channels) channel.baked = request.keep_rig;
-  gltf::write_clip(patch, file, out, dropped);
+  changes.push_back({std::move(out), std::move(dropped)});
   return baked;
 }
 
 /// A clip that was not asked for loses what it keyed on controls that are gone.
-void leave_out(const anim::Clip& clip, const std::set<int>& gone, const gltf::File& file,
-               gltf::Patch& patch) {
+void leave_out(const anim::Clip& clip, const std::set<int>& gone,
+               std::vector<gltf::ClipChange>& changes) {
   std::vector<int> dropped;
   for (const anim::Channel& channel : clip.channels) {
     if (gone.count(channel.node)) dropped.push_back(channel.source_channel);
   }
   if (!dropped.empty())
-    gltf::write_clip(patch, file, {clip.name, clip.source_animation, {}}, dropped);
+    changes.push_back({{clip.name, clip.source_animation, {}}, std::move(dropped)});
 }
 
 }  // namespace
@@ -170,8 +172,9 @@ std::optional<Baked> bake_file(const BakeRequest& request, const std::string& ou
     diagnostics.report(codes::kNoRig, Place(request.file), "the file has no rig to bake");
     return std::nullopt;
   }
+  for (const gltf::Rig& rig : *rigs) check_evaluates(*file, rig, diagnostics);
   const auto clips = gltf::read_clips(*file, diagnostics);
-  if (!clips) return std::nullopt;
+  if (!clips || !diagnostics.ok()) return std::nullopt;
   const auto chosen = choose_clips(request, clips->clips, diagnostics);
   if (!chosen) return std::nullopt;
 
@@ -180,18 +183,19 @@ std::optional<Baked> bake_file(const BakeRequest& request, const std::string& ou
 
   Baked result;
   gltf::Patch patch(*file);
+  std::vector<gltf::ClipChange> changes;
   std::set<int> gone;
   if (!request.keep_rig) gone = gltf::strip_rigs(patch, *file, *rigs);
   for (std::size_t i = 0; i < clips->clips.size(); ++i) {
     if (!chosen->count(i)) {
-      leave_out(clips->clips[i], gone, *file, patch);
+      leave_out(clips->clips[i], gone, changes);
       continue;
     }
-    auto baked =
-        bake_clip(request, *options, clips->clips[i], *bakeable, *file, patch, diagnostics);
+    auto baked = bake_clip(request, *options, clips->clips[i], *bakeable, changes, diagnostics);
     if (!baked) return std::nullopt;
     result.clips.push_back(std::move(*baked));
   }
+  gltf::write_clips(patch, *file, changes);
   if (!write_output(patch, *file, out, result.bytes, diagnostics)) return std::nullopt;
   return result;
 }

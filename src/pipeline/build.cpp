@@ -60,7 +60,8 @@ std::string skeleton_names(const std::vector<tags::ForeignSkeleton>& skeletons) 
   return "--skeleton takes one of: " + join(names, ", ");
 }
 
-/// The skeleton that `--skeleton` names, or the only one.
+}  // namespace
+
 const tags::ForeignSkeleton* choose_skeleton(const std::vector<tags::ForeignSkeleton>& skeletons,
                                              const BuildRequest& request,
                                              Diagnostics& diagnostics) {
@@ -86,6 +87,8 @@ const tags::ForeignSkeleton* choose_skeleton(const std::vector<tags::ForeignSkel
                      skeleton_names(skeletons));
   return nullptr;
 }
+
+namespace {
 
 /// The number of the rig to be, if no rig stands on the skeleton yet.
 std::optional<std::uint32_t> free_rig_id(const gltf::File& model,
@@ -125,9 +128,12 @@ std::optional<tags::TaggedSkeleton> fit_to_model(const BuildRequest& request,
   if (!id) return std::nullopt;
   out.rig_id = *id;
   out.ancestor = skeleton->ancestor;
-  const auto map = request.map.empty() ? templates::detect_map(*skeleton, folders, diagnostics)
-                                       : templates::find_map(request.map, folders, diagnostics);
+  const auto map = request.map.empty()
+                       ? templates::detect_map(expanded, *skeleton, folders, diagnostics)
+                       : templates::find_map(request.map, folders, diagnostics);
   if (!map) return std::nullopt;
+  const bool own = !request.map.empty() && map->name != request.map;  // a user's, not one by name
+  if (own) templates::check_map(*map, expanded, *skeleton, diagnostics);
   return templates::fit(expanded, *skeleton, *map, out.fit, diagnostics);
 }
 

@@ -59,8 +59,13 @@ struct Built {
 std::optional<Built> build(const BuildRequest& request, const std::string& out,
                            Diagnostics& diagnostics);
 
+/// The skeleton that `--skeleton` names, or the only one; a null pointer was reported.
+const tags::ForeignSkeleton* choose_skeleton(const std::vector<tags::ForeignSkeleton>& skeletons,
+                                             const BuildRequest& request, Diagnostics& diagnostics);
 /// Whether every transform of a scene can be computed; a cycle is reported.
 bool check_evaluates(const scene::Scene& scene, Diagnostics& diagnostics);
+/// The same for a rig that was read: what is wrong is said of its nodes in the file.
+bool check_evaluates(const gltf::File& file, const gltf::Rig& rig, Diagnostics& diagnostics);
 /// Ends in .glb or .gltf; else reported.
 bool check_output_name(const std::string& out, Diagnostics& diagnostics);
 /// Writes a finished patch: buffers first, then the file.

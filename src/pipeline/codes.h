@@ -44,9 +44,51 @@ inline constexpr Code kNoSuchModule{761, Severity::error, "no such module",
                                     "`rigc modules` lists the modules that this run of rigc knows; "
                                     "--modules and RIGC_MODULES add more."};
 
+inline constexpr Code kLockedKeys{
+    795, Severity::warning, "keys on locked attributes",
+    "The rig has locked attributes that the clip keys. They keep their value and the keys have no "
+    "effect; take the keys away, or build without the `lock`."};
+
+// What check finds.
+inline constexpr Code kNothingFits{
+    775, Severity::warning, "no template fits the skeleton",
+    "The maps that rigc has do not find the joints that a template needs. `rigc map MODEL -o "
+    "map.yaml` writes a first guess to correct."};
+inline constexpr Code kNoAttributeKeyed{
+    776, Severity::warning, "keys on an attribute that is not there",
+    "The clip animates an attribute that the rig's control does not have; the keys have no "
+    "effect."};
+inline constexpr Code kDrivenKeyed{
+    777, Severity::warning, "keys on what is not offered for keying",
+    "A connection of the rig decides the attribute, or the control does not offer it: the keys "
+    "have no effect, or one that the rig does not expect."};
+inline constexpr Code kNotAControl{
+    778, Severity::warning, "keys on a node between the controls",
+    "The clip animates a node that the rig places itself. Key controls: other nodes may be "
+    "others in the next version."};
+inline constexpr Code kOutsideLimits{
+    779, Severity::warning, "keys outside of limits",
+    "The value of a key lies beyond the smallest or largest that the rig allows."};
+inline constexpr Code kNodesMoved{
+    780, Severity::warning, "nodes have other numbers",
+    "Another program numbered the nodes anew. What the nodes say in extras.rigc counts, so the rig "
+    "is whole; building it again brings both into agreement."};
+inline constexpr Code kNoIdentity{
+    781, Severity::warning, "nodes do not say what they are",
+    "Nodes of the rig have no extras.rigc, so they are found only as long as no program numbers "
+    "the nodes anew."};
+inline constexpr Code kCannotPin{782, Severity::error, "pins cannot be written",
+                                 "`rigc check --pin` writes `modules:` into template files."};
+inline constexpr Code kNothingToCheck{
+    783, Severity::error, "nothing to check",
+    "In a folder, `rigc check` takes .glb, .gltf and .vrm files, and YAML files with the key "
+    "`rigc`, `map` or `module`."};
+
 inline constexpr const Code* kPipelineCodes[] = {
-    &kNoSkeleton, &kSeveralSkeletons, &kNoSuchSkeleton,  &kHasRig,
-    &kNoRig,      &kNoSuchClip,       &kForeignChannels, &kBadRange,
-    &kShear,      &kUnknownFormat,    &kNotOneSelector,  &kNoSuchModule};
+    &kNoSkeleton,     &kSeveralSkeletons, &kNoSuchSkeleton, &kHasRig,      &kNoRig,
+    &kNoSuchClip,     &kForeignChannels,  &kBadRange,       &kShear,       &kUnknownFormat,
+    &kNotOneSelector, &kNoSuchModule,     &kLockedKeys,     &kNothingFits, &kNoAttributeKeyed,
+    &kDrivenKeyed,    &kNotAControl,      &kOutsideLimits,  &kNodesMoved,  &kNoIdentity,
+    &kCannotPin,      &kNothingToCheck};
 
 }  // namespace rigc::pipeline::codes

@@ -20,4 +20,21 @@ bool check_evaluates(const scene::Scene& scene, Diagnostics& diagnostics) {
   return eval::compile(scene, request, diagnostics).has_value();
 }
 
+bool check_evaluates(const gltf::File& file, const gltf::Rig& rig, Diagnostics& diagnostics) {
+  Diagnostics ignored;
+  if (check_evaluates(rig.scene, ignored)) return true;
+  // The template's lines are right: somebody changed the rig since. Read it again with its places.
+  Diagnostics in_file;
+  const auto rigs = gltf::read_rigs(file, in_file, gltf::Origins::file);
+  const std::size_t known = in_file.all().size();
+  for (const gltf::Rig& again : rigs.value_or(std::vector<gltf::Rig>()))
+    if (again.id == rig.id) check_evaluates(again.scene, in_file);
+  for (std::size_t i = known; i < in_file.all().size(); ++i) {
+    const Diagnostic& wrong = in_file.all()[i];
+    diagnostics.report(*wrong.code, Place(describe(wrong.place, in_file.sources())), wrong.message,
+                       wrong.hint);
+  }
+  return false;
+}
+
 }  // namespace rigc::pipeline

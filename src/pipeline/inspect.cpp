@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "base/text.h"
 #include "gltf/clips.h"
 #include "gltf/rig.h"
 #include "pipeline/codes.h"
+#include "pipeline/inspect_parts.h"
 
 namespace rigc::pipeline {
 namespace {
@@ -58,38 +58,6 @@ void write_joints(json::Writer& w, const Rig& rig) {
   w.end_array();
 }
 
-/// What animators can key on a control, with its values now.
-void write_attributes(json::Writer& w, const scene::Scene& scene, NodeId id) {
-  namespace transform = scene::transform;
-  const math::Trs local = scene.local(id);
-  const int keyable = static_cast<int>(scene.number({id, scene::control::kKeyable}));
-  w.key("attributes").begin_object();
-  if (keyable & 1) w.key("translate").numbers(&local.translation.x, 3);
-  if (keyable & 2) w.key("rotation").numbers(&local.rotation.x, 4);
-  if (keyable & 4) w.key("scale").numbers(&local.scale.x, 3);
-  for (const scene::UserAttribute& attribute : scene[id].user)
-    w.member(attribute.name, attribute.value);
-  w.end_object();
-}
-
-void write_controls(json::Writer& w, const Rig& rig) {
-  w.key("controls").begin_array();
-  for (NodeId id : rig.scene.nodes()) {
-    const scene::Node& node = rig.scene[id];
-    if (node.kind != scene::Kind::control) continue;
-    const auto opposite = std::get<std::string>(rig.scene.value({id, scene::control::kOpposite}));
-    w.begin_object().member("node", rig.nodes[id.index]).member("identity", to_text(node.identity));
-    w.member("name", node.name).member("local", node.ids.local).member("label", node.ids.label);
-    w.member("module", node.module)
-        .member("id", node.identity.command)
-        .member("role", node.identity.role);
-    w.member("opposite", opposite);
-    write_attributes(w, rig.scene, id);
-    w.end_object();
-  }
-  w.end_array();
-}
-
 void write_commands(json::Writer& w, const Rig& rig) {
   w.key("commands").begin_array();
   for (const gltf::CommandRecord& command : rig.commands) {
@@ -113,6 +81,8 @@ void write_rig(json::Writer& w, const Rig& rig) {
   write_features(w, rig);
   write_joints(w, rig);
   write_controls(w, rig);
+  write_layers(w, rig);
+  write_sets(w, rig);
   write_commands(w, rig);
   w.key("orphans").begin_array().end_array();
   w.end_object();
@@ -156,6 +126,7 @@ std::string as_text(const std::vector<Rig>& rigs, const gltf::ClipFile& clips) {
       out += fmt::format("  feature   {} ({}) {}\n", feature.name, feature.kind,
                          feature.on ? "on" : "off");
     }
+    out += groups_text(rig);
   }
   if (rigs.empty()) out += "no rig\n";
   for (std::size_t i = 0; i < clips.clips.size(); ++i) {

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Writes finished files: what they refer to first, the file itself last. Test:
-// tests/pipeline/build_test.cpp
+// tests/lossless/output_test.cpp
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
 
 #include "base/files.h"
 #include "base/text.h"
+#include "gltf/codes.h"
 #include "pipeline/build.h"
 #include "pipeline/codes.h"
 
@@ -13,16 +17,84 @@ namespace {
 
 constexpr std::uint64_t kLargestCopy = std::uint64_t{4} << 30;
 
-/// Copies a file that the output refers to from beside the input to beside the output, unless it is
-/// there already.
-bool copy_beside(const std::string& from_folder, const std::string& to_folder,
-                 const std::string& name, Diagnostics& diagnostics) {
-  const std::string from = join_path(from_folder, name);
-  const std::string to = join_path(to_folder, name);
-  if (from == to || !file_exists(from)) return true;
-  const auto bytes = read_file(from, kLargestCopy, diagnostics);
-  return bytes && write_file(to, {*bytes}, diagnostics);
+/// A file beside the input that is to stand beside the output too.
+struct Copy {
+  std::string to;
+  Bytes bytes;
+};
+
+bool same_bytes(const Bytes& a, const Bytes& b, Diagnostics& diagnostics) {
+  constexpr std::uint64_t kBlock = std::uint64_t{1} << 20;
+  if (a.size() != b.size()) return false;
+  for (std::uint64_t at = 0; at < a.size(); at += kBlock) {
+    const auto left = a.part(at, kBlock).text(diagnostics);
+    const auto right = b.part(at, kBlock).text(diagnostics);
+    if (!left || left != right) return false;
+  }
+  return true;
 }
+
+/// Gathers what is to be copied: nothing where a file lies on its place, or where it was missing
+/// already. False where another file lies there.
+class Copies {
+ public:
+  Copies(const std::string& input, const std::string& out, Diagnostics& diagnostics)
+      : from_folder_(folder_of(input)),
+        to_folder_(folder_of(out)),
+        out_(confine(to_folder_, file_name(out))),
+        place_(input),
+        diagnostics_(diagnostics) {}
+
+  bool add(const std::string& name) {
+    const auto from = confine(from_folder_, name);
+    const auto to = confine(to_folder_, name);
+    if (from && from == to) return true;
+    if (!from || !to) return skip(name, "leaves the folder");
+    if (!file_exists(*from)) return skip(name, "is not there, or is no file");
+    auto bytes = Bytes::open(*from, kLargestCopy, diagnostics_);
+    if (!bytes) return false;
+    if (to == out_) return clash(name, "has the name of the output");
+    if (!file_exists(*to)) {
+      list_.push_back({*to, *std::move(bytes)});
+      return true;
+    }
+    const auto there = Bytes::open(*to, kLargestCopy, diagnostics_);
+    if (!there) return false;
+    return same_bytes(*there, *bytes, diagnostics_) ||
+           clash(name, "is another file beside the output");
+  }
+
+  bool write() {
+    return std::all_of(list_.begin(), list_.end(), [&](const Copy& copy) {
+      std::error_code refused;  // write_file reports that there is no folder
+      std::filesystem::create_directories(folder_of(copy.to), refused);
+      return write_file(copy.to, {copy.bytes}, diagnostics_);
+    });
+  }
+
+ private:
+  static std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+  bool skip(const std::string& name, const char* why) {
+    diagnostics_.report(
+        gltf::codes::kNotCopied, place_,
+        fmt::format("\"{}\", which the model names, {}; it is not copied", printable(name), why));
+    return true;
+  }
+
+  bool clash(const std::string& name, const char* why) {
+    diagnostics_.report(gltf::codes::kCopyClash, place_,
+                        fmt::format("\"{}\", which the model names, {}", printable(name), why),
+                        "write into an empty folder, or into the folder of the model");
+    return false;
+  }
+
+  std::string from_folder_, to_folder_;
+  std::optional<std::string> out_;
+  Place place_;
+  Diagnostics& diagnostics_;
+  std::vector<Copy> list_;
+};
 
 }  // namespace
 
@@ -37,13 +109,13 @@ bool write_output(gltf::Patch& patch, const gltf::File& file, const std::string&
                   std::uint64_t& bytes, Diagnostics& diagnostics) {
   const auto output = patch.finish(!ends_with(out, ".gltf"), diagnostics);
   if (!output) return false;
-  const std::string from_folder = folder_of(file.path);
-  const std::string to_folder = folder_of(out);
-  for (const std::string& name : output->copies) {
-    if (!copy_beside(from_folder, to_folder, name, diagnostics)) return false;
-  }
+  Copies copies(file.path, out, diagnostics);
+  bool good = true;
+  for (const std::string& name : output->copies) good = copies.add(name) && good;
+  if (!good || !copies.write()) return false;
   for (const gltf::ExtraFile& extra : output->extra_files) {
-    if (!write_file(join_path(to_folder, extra.name), {extra.bytes}, diagnostics)) return false;
+    if (!write_file(join_path(folder_of(out), extra.name), {extra.bytes}, diagnostics))
+      return false;
   }
   bytes = output->size();
   return write_file(out, output->pieces, diagnostics);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The reference of modules, for the terminal, for docs/modules.md and as JSON Schema.
-// Test: tests/pipeline/reference_test.cpp
+// The reference of modules, for the terminal and for docs/modules.md. Test:
+// tests/cli/cli_test.cpp
 #include "pipeline/reference.h"
 
 #include <fmt/format.h>
 
-#include "base/files.h"
 #include "base/text.h"
 #include "catalog/catalogue.h"
 #include "pipeline/codes.h"
@@ -24,24 +23,6 @@ std::string literal_text(const Literal& literal) {
   json::Writer w;
   write(w, literal);
   return w.take();
-}
-
-/// `enum: auto, forward, ...`, `float 0..1`, `node (joint)`.
-std::string type_text(const Parameter& parameter) {
-  std::string text(catalog::name_of(parameter.type));
-  if (!parameter.values.empty()) text += ": " + join(parameter.values, ", ");
-  if (!parameter.kind.empty()) text += " (" + parameter.kind + ")";
-  if (parameter.min || parameter.max) {
-    text += fmt::format(" {}..{}", parameter.min ? number_text(*parameter.min) : "",
-                        parameter.max ? number_text(*parameter.max) : "");
-  }
-  if (!parameter.unit.empty()) text += ", " + parameter.unit;
-  return text;
-}
-
-std::string default_text(const Parameter& parameter) {
-  if (parameter.required) return "required";
-  return parameter.default_value ? literal_text(*parameter.default_value) : "";
 }
 
 std::string explain(const Descriptor& d) {
@@ -112,50 +93,24 @@ const Descriptor* find_module(const std::string& name, const Catalogue& catalogu
   return found;
 }
 
-void write_type(json::Writer& w, const Parameter& parameter) {
-  const auto array_of = [&](const char* type, std::size_t count) {
-    w.member("type", "array").key("items").begin_object().member("type", type).end_object();
-    if (count > 0) w.member("minItems", count).member("maxItems", count);
-  };
-  switch (parameter.type) {
-    case ParameterType::number:
-    case ParameterType::angle:
-    case ParameterType::length:
-      w.member("type", "number");
-      break;
-    case ParameterType::integer:
-      w.member("type", "integer");
-      break;
-    case ParameterType::boolean:
-      w.member("type", "boolean");
-      break;
-    case ParameterType::numbers:
-      array_of("number", 0);
-      break;
-    case ParameterType::vec3:
-      array_of("number", 3);
-      break;
-    case ParameterType::curve:
-      array_of("array", 0);
-      break;
-    case ParameterType::nodes:
-    case ParameterType::plugs:
-      w.key("type").begin_array().value("string").value("array").end_array();
-      break;
-    case ParameterType::color:
-      w.key("type").begin_array().value("string").value("array").end_array();
-      break;
-    case ParameterType::expression:
-      w.key("type").begin_array().value("string").value("number").end_array();
-      break;
-    case ParameterType::value:
-      break;
-    default:
-      w.member("type", "string");
+}  // namespace
+
+std::string type_text(const Parameter& parameter) {
+  std::string text(catalog::name_of(parameter.type));
+  if (!parameter.values.empty()) text += ": " + join(parameter.values, ", ");
+  if (!parameter.kind.empty()) text += " (" + parameter.kind + ")";
+  if (parameter.min || parameter.max) {
+    text += fmt::format(" {}..{}", parameter.min ? number_text(*parameter.min) : "",
+                        parameter.max ? number_text(*parameter.max) : "");
   }
+  if (!parameter.unit.empty()) text += ", " + parameter.unit;
+  return text;
 }
 
-}  // namespace
+std::string default_text(const Parameter& parameter) {
+  if (parameter.required) return "required";
+  return parameter.default_value ? literal_text(*parameter.default_value) : "";
+}
 
 std::optional<std::string> modules(const std::string& name, const Paths& paths, bool as_json,
                                    Diagnostics& diagnostics) {
@@ -179,49 +134,6 @@ std::optional<std::string> modules(const std::string& name, const Paths& paths, 
   }
   w.end_array();
   return as_json ? w.take() + "\n" : text + "`rigc modules NAME` explains one, with an example.\n";
-}
-
-std::optional<std::string> schema(const std::string& name, const Paths& paths,
-                                  Diagnostics& diagnostics) {
-  if (name == "RIGC_rig") {
-    for (const char* place : {"schema/RIGC_rig.schema.json", "docs/schema/RIGC_rig.schema.json"}) {
-      const std::string path = join_path(data_folder(), place);
-      if (file_exists(path)) return read_file(path, 1 << 20, diagnostics);
-    }
-  }
-  Catalogue catalogue;
-  if (!add_modules(paths, catalogue, diagnostics)) return std::nullopt;
-  const Descriptor* found = find_module(name, catalogue, diagnostics);
-  if (!found) return std::nullopt;
-  json::Writer w(2);
-  w.begin_object()
-      .member("$schema", "https://json-schema.org/draft/2020-12/schema")
-      .member("title", found->title);
-  w.member("description", found->summary)
-      .member("type", "object")
-      .member("additionalProperties", false);
-  w.key("properties").begin_object();
-  for (const char* creation : {"name", "local", "label"}) {
-    if (found->makes_nodes()) w.key(creation).begin_object().member("type", "string").end_object();
-  }
-  for (const Parameter& parameter : found->parameters) {
-    w.key(parameter.name).begin_object().member("description", parameter.help);
-    write_type(w, parameter);
-    if (parameter.min) w.member("minimum", *parameter.min);
-    if (parameter.max) w.member("maximum", *parameter.max);
-    if (!parameter.values.empty()) {
-      w.key("enum").begin_array();
-      for (const std::string& value : parameter.values) w.value(value);
-      w.end_array();
-    }
-    w.end_object();
-  }
-  w.end_object().key("required").begin_array();
-  for (const Parameter& parameter : found->parameters) {
-    if (parameter.required) w.value(parameter.name);
-  }
-  w.end_array().end_object();
-  return w.take() + "\n";
 }
 
 std::string module_reference() {

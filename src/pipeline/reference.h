@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The reference made from data: modules, diagnostics, JSON Schemas. Test:
-// tests/pipeline/reference_test.cpp
+// The reference made from data: modules and diagnostics. Test: tests/cli/cli_test.cpp,
+// tests/cli/bad_test.cpp
 #pragma once
 
 #include <optional>
@@ -16,9 +16,10 @@ namespace rigc::pipeline {
 std::optional<std::string> modules(const std::string& name, const Paths& paths, bool json,
                                    Diagnostics& diagnostics);
 
-/// JSON Schema (2020-12) of a module's `with:`, or of RIGC_rig (from the data folder).
-std::optional<std::string> schema(const std::string& name, const Paths& paths,
-                                  Diagnostics& diagnostics);
+/// `enum: auto, forward, ...`, `float 0..1`, `node (joint)`.
+std::string type_text(const catalog::Parameter& parameter);
+/// `required`, the default, or nothing.
+std::string default_text(const catalog::Parameter& parameter);
 
 /// docs/modules.md: every built-in module.
 std::string module_reference();

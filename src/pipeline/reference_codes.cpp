@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The catalogue of diagnostics: every folder's table, by number. Test:
-// tests/pipeline/reference_test.cpp
+// tests/cli/bad_test.cpp
 #include <fmt/format.h>
 
 #include <algorithm>

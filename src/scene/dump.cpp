@@ -83,7 +83,8 @@ class Dump {
     write(attribute.initial);
     if (attribute.min) (out_ += " min"), write(*attribute.min);
     if (attribute.max) (out_ += " max"), write(*attribute.max);
-    out_ += attribute.keyable ? " keyable\n" : "\n";
+    if (attribute.keyable) out_ += " keyable";
+    out_ += attribute.hidden ? " hidden\n" : "\n";
   }
 
   void write(double v) { (out_ += ' ') += number_text(v); }

@@ -121,6 +121,15 @@ Plug Edit::add_attribute(NodeId node, UserAttribute attribute) {
   return {node, static_cast<std::uint16_t>(kUserAttributes + user.size() - 1)};
 }
 
+void Edit::set_access(const Plug& plug, bool keyable, bool hidden) {
+  assert(plug.attribute >= kUserAttributes && scene_.type(plug));
+  const std::size_t index = plug.attribute - kUserAttributes;
+  UserAttribute& attribute = scene_.nodes_[plug.node.index].user[index];
+  journal_.entries_.push_back(Journal::UserSet{plug.node, index, attribute});
+  attribute.keyable = keyable;
+  attribute.hidden = hidden;
+}
+
 void Edit::connect(const Plug& from, const Plug& to) {
   assert(scene_.type(from) && scene_.type(from) == scene_.type(to));
   assert(scene_.role(to) == Role::input);

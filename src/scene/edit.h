@@ -73,6 +73,8 @@ class Edit {
   void set(const Plug& plug, const Value& value);
   /// Adds a user attribute and gives its plug; the name is new on the node (asserted).
   Plug add_attribute(NodeId node, UserAttribute attribute);
+  /// What animators may do with a user attribute.
+  void set_access(const Plug& user, bool keyable, bool hidden);
   /// Replaces a connection that is there. Types are equal (asserted). Connecting to element n of an
   /// array that has n elements appends one.
   void connect(const Plug& from, const Plug& to);

@@ -44,6 +44,11 @@ constexpr auto kControl = joined(
          "Identity of the control on the other side."},
         {"mirror", Type::numbers, kData, kSingle, kFixed, 0,
          "Signs with which translations are copied to the opposite."},
+        {"locked_components", Type::number, kData, kSingle, kFixed, 0,
+         "Components that keep their value: 1 2 4 translate x y z, 8 16 32 rotate, 64 128 256 "
+         "scale, added up."},
+        {"hidden_components", Type::number, kData, kSingle, kFixed, 0,
+         "Components that a list of attributes leaves out, added up in the same way."},
     }));
 
 constexpr auto kConstraint = std::to_array<AttributeSpec>({
@@ -135,6 +140,30 @@ constexpr auto kMesh = std::to_array<AttributeSpec>({
      "Style, ends, side, sizes and colour of each part."},
 });
 
+constexpr auto kLimits = std::to_array<AttributeSpec>({
+    {"node", Type::matrix, kIn, kSingle, kFixed, 0, "World of the transform that is limited."},
+    {"bounds", Type::numbers, kData, kSingle, kFixed, 0,
+     "Channel (0 1 2 translate, 3 4 5 rotate, 6 7 8 scale), 0 min or 1 max, value of each bound."},
+    {"order", Type::text, kData, kSingle, kFixed, 0, "Order of the angles about fixed axes."},
+    {"axes", Type::quat, kData, kSingle, kFixed, 0, "Axes that are limited, parent space."},
+    {"origin", Type::vec3, kData, kSingle, kFixed, 0, "Where translate counts as 0."},
+    {"rest", Type::quat, kData, kSingle, kFixed, 0, "Rotation that counts as none."},
+});
+
+constexpr auto kDisplayLayer = std::to_array<AttributeSpec>({
+    {"layer", Type::text, kData, kSingle, kFixed, 0, "Name of the layer."},
+    {"visible", Type::number, kIn, kSingle, kFixed, 1, "0 hides its members."},
+    {"mode", Type::text, kData, kSingle, kFixed, 0, "normal, template or reference."},
+    {"color", Type::numbers, kData, kSingle, kFixed, 0, "Colour, sRGB 0 to 1; or none."},
+    {"members", Type::matrix, kIn, kArray, kFixed, 0, "Worlds of its members."},
+});
+
+constexpr auto kControlSet = std::to_array<AttributeSpec>({
+    {"set", Type::text, kData, kSingle, kFixed, 0, "Name of the set."},
+    {"parent", Type::text, kData, kSingle, kFixed, 0, "Name of the set that it is in."},
+    {"members", Type::matrix, kIn, kArray, kFixed, 0, "Worlds of its controls."},
+});
+
 constexpr std::array<KindSpec, static_cast<std::size_t>(Kind::count)> kKinds = {{
     {Kind::joint, "joint", true, kTransform},
     {Kind::transform, "transform", true, kTransform},
@@ -150,6 +179,9 @@ constexpr std::array<KindSpec, static_cast<std::size_t>(Kind::count)> kKinds = {
     {Kind::expression, "expression", false, kExpression},
     {Kind::remap, "remap", false, kRemap},
     {Kind::mesh, "mesh", false, kMesh},
+    {Kind::limits, "limits", false, kLimits},
+    {Kind::display_layer, "display_layer", false, kDisplayLayer},
+    {Kind::control_set, "control_set", false, kControlSet},
 }};
 
 constexpr bool complete() {
@@ -182,9 +214,14 @@ static_assert(std::size(kTransform) == transform::kCount &&
               std::size(kTransformAt) == transform::kCount);
 static_assert(matches(kTransform, kTransformAt) && matches(kControl, kTransformAt));
 
-constexpr At kControlAt[] = {{control::kShape, "shape"},       {control::kPoints, "points"},
-                             {control::kColor, "color"},       {control::kKeyable, "keyable"},
-                             {control::kOpposite, "opposite"}, {control::kMirror, "mirror"}};
+constexpr At kControlAt[] = {{control::kShape, "shape"},
+                             {control::kPoints, "points"},
+                             {control::kColor, "color"},
+                             {control::kKeyable, "keyable"},
+                             {control::kOpposite, "opposite"},
+                             {control::kMirror, "mirror"},
+                             {control::kLocked, "locked_components"},
+                             {control::kHidden, "hidden_components"}};
 static_assert(std::size(kControl) == transform::kCount + std::size(kControlAt) &&
               matches(kControl, kControlAt));
 
@@ -244,6 +281,25 @@ static_assert(std::size(kRemap) == std::size(kRemapAt) && matches(kRemap, kRemap
 
 constexpr At kMeshAt[] = {{mesh::kJoints, "joints"}, {mesh::kParts, "parts"}};
 static_assert(std::size(kMesh) == std::size(kMeshAt) && matches(kMesh, kMeshAt));
+
+constexpr At kLimitsAt[] = {{limits::kNode, "node"},     {limits::kBounds, "bounds"},
+                            {limits::kOrder, "order"},   {limits::kAxes, "axes"},
+                            {limits::kOrigin, "origin"}, {limits::kRest, "rest"}};
+static_assert(std::size(kLimits) == std::size(kLimitsAt) && matches(kLimits, kLimitsAt));
+
+constexpr At kDisplayLayerAt[] = {{display_layer::kLayer, "layer"},
+                                  {display_layer::kVisible, "visible"},
+                                  {display_layer::kMode, "mode"},
+                                  {display_layer::kColor, "color"},
+                                  {display_layer::kMembers, "members"}};
+static_assert(std::size(kDisplayLayer) == std::size(kDisplayLayerAt) &&
+              matches(kDisplayLayer, kDisplayLayerAt));
+
+constexpr At kControlSetAt[] = {{control_set::kSet, "set"},
+                                {control_set::kParent, "parent"},
+                                {control_set::kMembers, "members"}};
+static_assert(std::size(kControlSet) == std::size(kControlSetAt) &&
+              matches(kControlSet, kControlSetAt));
 
 }  // namespace
 

@@ -26,7 +26,10 @@ enum class Kind : std::uint8_t {
   ik_chain,
   expression,
   remap,
-  mesh,  ///< a proxy mesh bound rigidly to joints; data only
+  mesh,           ///< a proxy mesh bound rigidly to joints; data only
+  limits,         ///< bounds of a transform's translate, rotation and scale
+  display_layer,  ///< transforms that are shown, coloured and selected as one
+  control_set,    ///< controls that animators select and key as one; data only
   count
 };
 
@@ -79,13 +82,18 @@ namespace control {
 inline constexpr std::uint16_t kShape = 7;  ///< text: name of the shape
 inline constexpr std::uint16_t kPoints =
     8;  ///< numbers: polylines, flattened: count, x, y, z, ... repeated; control space
-inline constexpr std::uint16_t kColor = 9;      ///< vec3, sRGB 0..1
-inline constexpr std::uint16_t kKeyable = 10;   ///< number: bits 1 translate, 2 rotate, 4 scale
+inline constexpr std::uint16_t kColor = 9;  ///< vec3, sRGB 0..1
+/// number: bits 1 translate, 2 rotate, 4 scale; each where some component of it is not locked
+inline constexpr std::uint16_t kKeyable = 10;
 inline constexpr std::uint16_t kOpposite = 11;  ///< text: identity of the control on the other side
 /// numbers: for x, y, z the sign with which a translation is copied to the opposite control to
 /// mirror the pose; a rotation about that axis takes the other sign; 0 where copying cannot mirror.
 /// Empty without an opposite.
 inline constexpr std::uint16_t kMirror = 12;
+inline constexpr std::uint16_t kLocked =
+    13;  ///< number: component_bits() that keep their value whatever is keyed or set
+inline constexpr std::uint16_t kHidden =
+    14;  ///< number: component_bits() that a list of attributes leaves out
 }  // namespace control
 
 /// A constraint with weighted targets. All matrices in rig space. Output goes to the driven
@@ -196,5 +204,39 @@ inline constexpr std::uint16_t kParts =
     1;  ///< numbers, data: for each joint: style (0 capsule, 1 box), head xyz, tail xyz, side xyz
         ///< (unit), width, depth, color rgb; joint space
 }  // namespace mesh
+
+/// What a transform's values are clamped to, after keys and connections: everything that reads
+/// them, its world too, gets the clamped values. Several of one transform count one after another.
+namespace limits {
+inline constexpr std::uint16_t kNode = 0;  ///< matrix, input: world of the transform (a connection
+                                           ///< names it)
+inline constexpr std::uint16_t kBounds =
+    1;  ///< numbers, data: channel (0 1 2 translate x y z, 3 4 5 rotate, 6 7 8 scale), side (0 min,
+        ///< 1 max), value each; lengths in the parent's space, degrees, factors
+inline constexpr std::uint16_t kOrder =
+    2;  ///< text, data: order of the angles about fixed axes, `xyz`: x first
+inline constexpr std::uint16_t kAxes =
+    3;  ///< quat, data: axes of translate and rotate, parent space; of a control none
+inline constexpr std::uint16_t kOrigin =
+    4;  ///< vec3, data: where translate counts as 0, parent space
+inline constexpr std::uint16_t kRest = 5;  ///< quat, data: rotation that counts as none
+}  // namespace limits
+
+/// A named layer.
+namespace display_layer {
+inline constexpr std::uint16_t kLayer = 0;    ///< text, data: its name
+inline constexpr std::uint16_t kVisible = 1;  ///< number, input: 0 hides its members
+inline constexpr std::uint16_t kMode = 2;     ///< text, data: normal, template or reference
+inline constexpr std::uint16_t kColor = 3;    ///< numbers, data: sRGB 0..1, or none
+inline constexpr std::uint16_t kMembers =
+    4;  ///< matrix[], input: worlds of its members (a connection names each)
+}  // namespace display_layer
+
+/// A named set of controls.
+namespace control_set {
+inline constexpr std::uint16_t kSet = 0;      ///< text, data: its name
+inline constexpr std::uint16_t kParent = 1;   ///< text, data: the set that it is in; empty: none
+inline constexpr std::uint16_t kMembers = 2;  ///< matrix[], input: worlds of its controls
+}  // namespace control_set
 
 }  // namespace rigc::scene

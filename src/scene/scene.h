@@ -46,6 +46,7 @@ struct UserAttribute {
   double initial = 0;
   std::optional<double> min, max;
   bool keyable = true;
+  bool hidden = false;  ///< a list of attributes leaves it out
   bool operator==(const UserAttribute&) const = default;
 };
 

@@ -50,6 +50,7 @@ void dump_joint(const TaggedSkeleton& skeleton, const TaggedJoint& joint, std::s
   if (joint.ids.global != skeleton.global) out += " global " + joint.ids.global;
   out += fmt::format(" at {} {}", text(joint.rest.translation), text(joint.rest.rotation));
   if (joint.rest.scale != math::Vec3{1, 1, 1}) out += " scale " + text(joint.rest.scale);
+  if (joint.template_parent.uid != 0) out += " under " + to_text(joint.template_parent);
   if (joint.optional) out += " optional";
   if (joint.mirror.mirrored) out += " mirrored";
   if (joint.mirror.opposite.uid != 0) out += " opposite " + to_text(joint.mirror.opposite);

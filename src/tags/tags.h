@@ -56,6 +56,8 @@ struct TaggedJoint {
   JointKey key;
   std::vector<JointKey> was;  ///< earlier keys, oldest first
   int parent = -1;            ///< index into TaggedSkeleton::joints, smaller than its own
+  JointKey template_parent;   ///< what it hangs under in the template, where a model hangs it
+                              ///< elsewhere; uid 0: its parent, or one above that
   Identifiers ids;            ///< global always set
   math::Trs rest;  ///< local rest transform, relative to the parent (roots: to the rig's space)
   bool optional = false;
@@ -134,6 +136,7 @@ struct ForeignJoint {
 };
 
 struct ForeignSkeleton {
+  std::string file;  ///< as the user named it, for messages
   std::vector<ForeignJoint> joints;
   int ancestor = -1;  ///< glTF node under which the rig's root goes: lowest common non-joint
                       ///< ancestor; -1: the scene

@@ -15,25 +15,12 @@ namespace {
 using catalog::Parameter;
 using catalog::ParameterType;
 
-/// The three parameters of every command that makes nodes.
-const std::vector<Parameter>& creation_parameters() {
-  static const std::vector<Parameter> kParameters = [] {
-    std::vector<Parameter> parameters(3);
-    const char* const names[] = {"name", "local", "label"};
-    for (std::size_t i = 0; i < 3; ++i) {
-      parameters[i].name = names[i];
-      parameters[i].type = ParameterType::text;
-    }
-    return parameters;
-  }();
-  return kParameters;
-}
-
 std::vector<std::string> parameter_names(const catalog::Descriptor& descriptor) {
   std::vector<std::string> names;
   for (const Parameter& parameter : descriptor.parameters) names.push_back(parameter.name);
   if (descriptor.makes_nodes())
-    for (const Parameter& parameter : creation_parameters()) names.push_back(parameter.name);
+    for (const Parameter& parameter : catalog::creation_parameters())
+      names.push_back(parameter.name);
   return names;
 }
 
@@ -150,7 +137,7 @@ bool substitute(Literal& value, const Environment& environment) {
 const Parameter* declaration(const catalog::Descriptor& descriptor, std::string_view argument) {
   if (const Parameter* parameter = descriptor.find(argument)) return parameter;
   if (descriptor.makes_nodes())
-    for (const Parameter& parameter : creation_parameters())
+    for (const Parameter& parameter : catalog::creation_parameters())
       if (parameter.name == argument) return &parameter;
   return nullptr;
 }

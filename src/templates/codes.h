@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Diagnostic codes 220..399: reading (220..269), arguments (270..289), the library and parts
-// (290..329), placing (330..339), maps and fitting (340..369). Test: tests/bad and tests/templates.
+// (290..329), placing (330..339), maps and fitting (340..369, 380..399). Test: tests/bad and
+// tests/templates.
 #pragma once
 
 #include "base/diagnostics.h"
@@ -180,6 +181,25 @@ inline constexpr Code kSheared{348, Severity::warning, "rest pose is sheared",
 inline constexpr Code kBadModel{350, Severity::error, "skeleton is malformed",
                                 "The skeleton's joints do not form a forest."};
 
+inline constexpr Code kBadSides{380, Severity::error, "sides of a map cannot be read",
+                                "`sides: {l: Left, r: Right}` says what {s} in a key and {side} in "
+                                "a bone's name stand for. A line for both sides has both."};
+inline constexpr Code kMapEntryTwice{381, Severity::error, "map has a joint twice",
+                                     "Each joint, or chain of a group, has one line in a map. A "
+                                     "line with {s} stands for one line of each side."};
+inline constexpr Code kMapEntryIdle{
+    382, Severity::warning, "template has no such joint",
+    "A line of the map given with --map names a joint that the template does not have."};
+inline constexpr Code kMapBoneAbsent{
+    383, Severity::warning, "model has no such bone",
+    "A line of the map given with --map names a bone that the model does not have. Write `~` where "
+    "the model has none."};
+
+inline constexpr Code kTooMuchToGuess{
+    384, Severity::error, "skeleton is too large to guess its map",
+    "Guessing compares every joint of the template with every bone, and stops at four million "
+    "pairs. Write the map by hand."};
+
 inline constexpr const Code* kTemplatesCodes[] = {&kUnknownFormat,
                                                   &kMissingKey,
                                                   &kNotAllowed,
@@ -232,6 +252,11 @@ inline constexpr const Code* kTemplatesCodes[] = {&kUnknownFormat,
                                                   &kAsymmetric,
                                                   &kHierarchyDiffers,
                                                   &kSheared,
-                                                  &kBadModel};
+                                                  &kBadModel,
+                                                  &kBadSides,
+                                                  &kMapEntryTwice,
+                                                  &kMapEntryIdle,
+                                                  &kMapBoneAbsent,
+                                                  &kTooMuchToGuess};
 
 }  // namespace rigc::templates::codes

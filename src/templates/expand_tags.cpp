@@ -11,6 +11,29 @@
 #include "templates/expander.h"
 
 namespace rigc::templates {
+namespace {
+
+/// What a `side: signed` value is on the other side of the character: a number with the other sign,
+/// [left, up, forward] with the other left, a word of a side or of a signed axis its opposite.
+void turn_round(Literal& value) {
+  if (value.kind == Literal::Kind::number) {
+    if (value.number == 0) return;  // no -0
+    const Span span = value.span;
+    value = Literal::of(-value.number);
+    value.span = span;
+  } else if (value.kind == Literal::Kind::list && !value.items.empty()) {
+    turn_round(value.items.front());
+  } else if (value.kind == Literal::Kind::text) {
+    std::string& word = value.text;
+    if (word == "left" || word == "right")
+      word = word == "left" ? "right" : "left";
+    else if (word.starts_with('+') || word.starts_with('-'))
+      word.front() = word.front() == '+' ? '-' : '+';
+  }
+}
+
+}  // namespace
+
 void Expander::add_tags(RawJoint& joint) {
   const Use& use = uses_[static_cast<std::size_t>(joint.use)];
   tags::TaggedJoint& tagged = joint.result.tagged;
@@ -43,6 +66,7 @@ void Expander::add_command(RawJoint& joint, const Command& command, int feature)
         descriptor ? declaration(*descriptor, argument.name) : nullptr;
     if (!parameter) continue;  // reported when the template was read
     bind_value(use, *parameter, argument);
+    if (parameter->is_signed && use.mirrored) turn_round(argument.value);
     rename(joint.use, *parameter, argument.value);
   }
   joint.result.tagged.commands.push_back(std::move(tag));

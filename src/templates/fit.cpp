@@ -51,10 +51,13 @@ class Fitter {
   void add_bone(int bone);
   void add_helper(std::size_t index);
   Vec3 helper_position(std::size_t index) const;
+  Vec3 along_bone(std::size_t index, std::size_t above, Vec3 offset) const;
+  Vec3 bone_at(std::size_t index) const;
   int matched_above(std::size_t index) const;
   int matched_below(std::size_t index) const;
   tags::TaggedJoint tagged(int bone) const;
   void set_opposites();
+  void set_template_parents();
   Affine placed_world(std::size_t index) const;
 
   const Expanded& expanded_;
@@ -179,24 +182,49 @@ Affine Fitter::placed_world(std::size_t index) const {
   return placed_.world(static_cast<std::size_t>(placed_.find(expanded_.joints[index].tagged.key)));
 }
 
+Vec3 Fitter::bone_at(std::size_t index) const {
+  const int bone = matching_.bones[index].back();
+  return model_.joints[static_cast<std::size_t>(bone)].rest.origin;
+}
+
+/// An offset below the joint `above`, given in rig space and the template's proportions: turned and
+/// lengthened as the way to the matched joint below is in the model, so that a knee that has to be
+/// made lies between hip and ankle; at the end of a limb as the bone that leads to `above` is, so
+/// that a hand lies in line with its forearm.
+Vec3 Fitter::along_bone(std::size_t index, std::size_t above, Vec3 offset) const {
+  const int below = matched_below(index);
+  const int first = below >= 0 ? static_cast<int>(above) : matched_above(above);
+  if (expanded_.joints[index].helper || first < 0) return offset;
+  const auto first_index = static_cast<std::size_t>(first);
+  const std::size_t last = below >= 0 ? static_cast<std::size_t>(below) : above;
+  const int last_bone = below >= 0 ? matching_.bones[last].front() : matching_.bones[last].back();
+  const tags::Character& character = measured_.character;
+  const math::Mat3 axes{character.left, character.up, character.forward};
+  const Vec3 own =
+      axes * (placed_world(last).origin - placed_world(first_index).origin) * character.unit;
+  const Vec3 bone =
+      model_.joints[static_cast<std::size_t>(last_bone)].rest.origin - bone_at(first_index);
+  if (!(length(own) > 1e-9 * character.height) || !(length(bone) > 1e-9 * character.height))
+    return offset;
+  const math::Quat turn = math::between(normalised(own), normalised(bone));
+  return math::rotate(turn, offset) * (length(bone) / length(own));
+}
+
 /// As far from its anchor as in the template: the joint above, else the one below, but then as high
 /// above ground.
 Vec3 Fitter::helper_position(std::size_t index) const {
   const tags::Character& character = measured_.character;
-  const auto in_rig = [&](Vec3 metres) {
-    return (character.left * metres.x + character.up * metres.y + character.forward * metres.z) *
-           character.unit;
-  };
+  const math::Mat3 axes{character.left, character.up, character.forward};
+  const auto in_rig = [&](Vec3 metres) { return axes * metres * character.unit; };
   const Vec3 own = placed_world(index).origin;
   const int above = matched_above(index);
   const int anchor = above >= 0 ? above : matched_below(index);
   if (anchor < 0) return in_rig(own);
   const auto anchor_index = static_cast<std::size_t>(anchor);
-  const Vec3 anchor_own = placed_world(anchor_index).origin;
-  const int bone = matching_.bones[anchor_index].front();
-  const Vec3 at = model_.joints[static_cast<std::size_t>(bone)].rest.origin;
-  const Vec3 moved = at + in_rig(own - anchor_own);
-  if (above >= 0) return moved;
+  const Vec3 offset = in_rig(own - placed_world(anchor_index).origin);
+  if (above >= 0) return bone_at(anchor_index) + along_bone(index, anchor_index, offset);
+  const int below = matching_.bones[anchor_index].front();
+  const Vec3 moved = model_.joints[static_cast<std::size_t>(below)].rest.origin + offset;
   const double wanted = measured_.lowest + (own.y - measured_.template_lowest) * character.unit;
   return moved + character.up * (wanted - dot(moved, character.up));
 }
@@ -238,6 +266,31 @@ void Fitter::set_opposites() {
   }
 }
 
+/// Which joint a joint hangs under in the template, where the model hangs it elsewhere.
+void Fitter::set_template_parents() {
+  const auto is_above = [&](int above, int joint) {
+    while (joint >= 0 && joint != above)
+      joint = out_.joints[static_cast<std::size_t>(joint)].parent;
+    return joint >= 0;
+  };
+  for (std::size_t i = 0; i < expanded_.joints.size(); ++i) {
+    int before = -1;  // in the template's order, index in the result
+    for (int at = expanded_.joints[i].tagged.parent; at >= 0 && before < 0;
+         at = expanded_.joints[static_cast<std::size_t>(at)].tagged.parent)
+      before = joint_index_[static_cast<std::size_t>(at)];
+    std::vector<int> own;
+    for (const int bone : matching_.bones[i])
+      own.push_back(bone_index_[static_cast<std::size_t>(bone)]);
+    if (own.empty() && joint_index_[i] >= 0) own.push_back(joint_index_[i]);
+    for (const int joint : own) {
+      if (before >= 0 && !is_above(before, joint) && !is_above(joint, before))
+        out_.joints[static_cast<std::size_t>(joint)].template_parent =
+            out_.joints[static_cast<std::size_t>(before)].key;
+      before = joint;
+    }
+  }
+}
+
 tags::TaggedSkeleton Fitter::run() {
   out_ = expanded_.skeleton;
   out_.character = measured_.character;
@@ -246,13 +299,14 @@ tags::TaggedSkeleton Fitter::run() {
   joint_index_.assign(expanded_.joints.size(), -1);
   for (std::size_t i = 0; i < expanded_.joints.size(); ++i) {
     for (const int bone : matching_.bones[i]) add_bone(bone);
-    if (!matching_.has(i) && expanded_.joints[i].helper) add_helper(i);
+    if (matching_.made[i]) add_helper(i);
   }
   for (std::size_t i = 0; i < model_.joints.size(); ++i)
     if (included_[i]) add_bone(static_cast<int>(i));
   set_opposites();
+  set_template_parents();
   if (!sheared_.empty())
-    diagnostics_.report(codes::kSheared, Place(),
+    diagnostics_.report(codes::kSheared, Place(model_.file),
                         fmt::format("the rest of {} is sheared by {:.2f} %, the most of all joints",
                                     printable(sheared_, 60), worst_shear_ * 100));
   return std::move(out_);
@@ -265,7 +319,7 @@ std::optional<tags::TaggedSkeleton> fit(const Expanded& expanded,
                                         FitReport& report, Diagnostics& diagnostics) {
   report.map = map.name;
   if (!is_forest(model)) {
-    diagnostics.report(codes::kBadModel, Place(),
+    diagnostics.report(codes::kBadModel, Place(model.file),
                        "the joints of the model's skeleton do not form a forest");
     return std::nullopt;
   }

@@ -29,6 +29,7 @@ struct FitReport {
   std::vector<Match> matched;
   std::vector<std::string> dropped;    ///< optional joints of the template that the model lacks
   std::vector<std::string> helpers;    ///< helper joints that were made
+  std::vector<std::string> twists;     ///< bones that roll or twist with a limb's joints: kept
   std::vector<std::string> missing;    ///< required joints that the model lacks: errors
   std::vector<std::string> extra;      ///< bones that no joint of the template stands for
   std::optional<Asymmetry> asymmetry;  ///< the largest

@@ -14,6 +14,7 @@ namespace rigc::templates {
 /// of a chain.
 struct Matching {
   std::vector<std::vector<int>> bones;
+  std::vector<bool> made;  ///< by expanded joint: rigc makes it, because the model has none
   bool has(std::size_t joint) const { return !bones[joint].empty(); }
 };
 

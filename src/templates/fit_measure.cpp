@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Measuring: a least-squares map from the template's left and up to where the matched bones are in
-// the world. There, not in rig space, a character is never mirrored, so that left x up is forward.
-// Test: tests/templates/fit_test.cpp
+// Measuring: the rotation that takes the template's joints nearest to where the matched bones are
+// in the world. There, not in rig space, a character is never mirrored, so that left x up is
+// forward. Test: tests/templates/fit_test.cpp
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -48,29 +48,37 @@ std::vector<Sample> samples_of(const Expanded& expanded, const tags::TaggedSkele
   return samples;
 }
 
-/// World directions into which left and up went; zero where the samples do not spread that way.
-std::pair<Vec3, Vec3> regress(const std::vector<Sample>& samples) {
-  Vec3 own_mean, world_mean;
+/// Mean of the samples' places in the template and in the world.
+std::pair<Vec3, Vec3> means(const std::vector<Sample>& samples) {
+  std::pair<Vec3, Vec3> mean;
   const double share = 1 / static_cast<double>(samples.size());
   for (const Sample& sample : samples) {
-    own_mean = own_mean + sample.own * share;
-    world_mean = world_mean + sample.world * share;
+    mean.first = mean.first + sample.own * share;
+    mean.second = mean.second + sample.world * share;
   }
-  double xx = 0, xy = 0, yy = 0;
-  Vec3 x, y;
+  return mean;
+}
+
+/// The rotation from the template to the world: the best for all samples; for samples on a line the
+/// shortest that turns the line; else none.
+math::Mat3 turn_of(const std::vector<Sample>& samples) {
+  if (samples.empty()) return {};
+  const auto [own_mean, world_mean] = means(samples);
+  math::Mat3 correlation{{}, {}, {}};
+  Vec3 own_line, world_line;  // to the sample that is farthest from the middle in the template
   for (const Sample& sample : samples) {
-    const Vec3 own = sample.own - own_mean;
-    const Vec3 world = sample.world - world_mean;
-    xx += own.x * own.x;
-    xy += own.x * own.y;
-    yy += own.y * own.y;
-    x = x + world * own.x;
-    y = y + world * own.y;
+    const Vec3 own = sample.own - own_mean, world = sample.world - world_mean;
+    correlation.x = correlation.x + world * own.x;
+    correlation.y = correlation.y + world * own.y;
+    correlation.z = correlation.z + world * own.z;
+    if (length(own) > length(own_line)) {
+      own_line = own;
+      world_line = world;
+    }
   }
-  const double determinant = xx * yy - xy * xy;
-  if (determinant > 1e-6 * (xx + yy) * (xx + yy)) return {x * yy - y * xy, y * xx - x * xy};
-  if (xx > yy) return {x, {}};
-  return {{}, y};
+  if (const auto rotation = math::fit_rotation(correlation)) return math::matrix(*rotation);
+  if (!(length(own_line) > 1e-12) || !(length(world_line) > 1e-12)) return {};
+  return math::matrix(math::between(normalised(own_line), normalised(world_line)));
 }
 
 Vec3 snapped(Vec3 direction, double cosine) {
@@ -84,21 +92,10 @@ Vec3 snapped(Vec3 direction, double cosine) {
 
 /// Left and up in the world, unit and at right angles.
 std::pair<Vec3, Vec3> axes_of(const std::vector<Sample>& samples) {
-  const Vec3 world_left{1, 0, 0}, world_up{0, 1, 0};
-  if (samples.empty()) return {world_left, world_up};
-  auto [left, up] = regress(samples);
-  const bool has_left = length(left) > 1e-12, has_up = length(up) > 1e-12;
-  if (has_left) left = snapped(normalised(left), kSnapLeft);
-  if (has_up) up = snapped(normalised(up), kSnapUp);
-  if (!has_left && !has_up) return {world_left, world_up};
-  const auto across = [](Vec3 v, Vec3 axis, Vec3 other) {
-    Vec3 rest = v - axis * dot(v, axis);
-    if (length(rest) < 0.1) rest = other - axis * dot(other, axis);
-    return normalised(rest, perpendicular(axis));
-  };
-  if (!has_left) return {across(world_left, up, {0, 0, 1}), up};
-  if (!has_up) return {left, across(world_up, left, {0, 0, 1})};
-  return {left, snapped(across(up, left, world_up), kSnapUp)};
+  const math::Mat3 turn = turn_of(samples);
+  const Vec3 left = snapped(turn.x, kSnapLeft);
+  const Vec3 up = turn.y - left * dot(turn.y, left);
+  return {left, snapped(normalised(up), kSnapUp)};
 }
 
 template <class Position>
@@ -112,6 +109,27 @@ std::pair<double, double> extent(const std::vector<Sample>& samples, Position po
     first = false;
   }
   return range;
+}
+
+/// Rig units of a template's metre: by the heights, or by the sizes where the template is flat, as
+/// a hand is; without two joints in different places a metre of the template is a metre of the
+/// world.
+double unit_of(const std::vector<Sample>& samples, double own_height, double rig_height,
+               double world_metre) {
+  Vec3 own_mean, rig_mean;
+  const double part = 1 / static_cast<double>(samples.size());
+  for (const Sample& sample : samples) {
+    own_mean = own_mean + sample.own * part;
+    rig_mean = rig_mean + sample.rig * part;
+  }
+  double own = 0, rig = 0, widest = 0;
+  for (const Sample& sample : samples) {
+    own += dot(sample.own - own_mean, sample.own - own_mean);
+    rig += dot(sample.rig - rig_mean, sample.rig - rig_mean);
+    widest = std::max(widest, length(sample.own - own_mean));
+  }
+  if (own_height > widest / 2 && rig_height > 0) return rig_height / own_height;
+  return own > 1e-12 && rig > 0 ? math::sqrt(rig / own) : world_metre;
 }
 
 /// The largest distance of a bone from the mirror image of its opposite.
@@ -146,7 +164,7 @@ void check_symmetry(const Expanded& expanded, const tags::ForeignSkeleton& model
   }
   if (report.asymmetry->share <= kMostAsymmetry) return;
   diagnostics.report(
-      codes::kAsymmetric, Place(),
+      codes::kAsymmetric, Place(model.file),
       fmt::format("{} is {:.0f} mm ({:.1f} % of the height) from the mirror image of {}",
                   printable(report.asymmetry->opposite, 60), report.asymmetry->metres * 1000,
                   report.asymmetry->share * 100, printable(report.asymmetry->joint, 60)),
@@ -183,9 +201,7 @@ Measured measure(const Expanded& expanded, const tags::TaggedSkeleton& placed,
   report.height_metres = world.second - world.first;
   const double own_height = own.second - own.first;
   const double rig_height = rig.second - rig.first;
-  // Without two joints at different heights, a metre of the template is a metre of the world.
-  out.character.unit =
-      own_height > 1e-6 && rig_height > 0 ? rig_height / own_height : length(to_rig * up);
+  out.character.unit = unit_of(samples, own_height, rig_height, length(to_rig * up));
   out.character.height = rig_height > 0 ? rig_height : out.character.unit;
   check_symmetry(expanded, model, matching, left, report, diagnostics);
   return out;

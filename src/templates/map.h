@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Maps: which bone of a kind of model is which joint of a template. Data in templates/maps/*.yaml;
-// the one step of rigc that goes by names. Test: tests/templates/map_test.cpp
+// Maps: which bone of a kind of model is which joint of a template. Data in templates/maps/*.yaml,
+// or a user's own file. Test: tests/templates/map_test.cpp
 #pragma once
 
 #include <optional>
@@ -9,6 +9,8 @@
 
 #include "base/diagnostics.h"
 #include "tags/tags.h"
+#include "templates/bone_names.h"
+#include "templates/expand.h"
 
 namespace rigc::templates {
 
@@ -17,16 +19,31 @@ struct MapEntry {
   std::string local;  ///< group of the template
   std::string label;  ///< empty: the group's chain
   std::vector<std::vector<std::string>>
-      bones;  ///< of a chain: in order; each a list of names, first found wins
+      bones;            ///< of a chain: in order; each a list of names, first found wins
+  bool absent = false;  ///< `~`: the model has no such bone, and that is no mistake
   Span span;
 };
 
+/// What `{s}` in a key and `{side}` in a bone's name stand for.
+struct MapSide {
+  std::string key;                 ///< in the template's groups: `l`
+  std::vector<std::string> words;  ///< in the model's names: `Left`
+};
+
 struct Map {
+  /// How the names of bones are compared.
+  enum class Names {
+    bones,     ///< without case, prefix and suffix
+    words,     ///< word by word
+    humanoid,  ///< the names of the VRM humanoid table; those of nodes are never read
+  };
   std::string name;
   std::string title;
-  bool humanoid = false;              ///< names are those of the VRM humanoid table, not of nodes
+  Names names = Names::bones;
   std::vector<std::string> prefixes;  ///< cut from bone names; `#` stands for any digits, or none
   std::vector<std::string> suffixes;
+  std::vector<std::vector<std::string>> ignored;  ///< phrases that say nothing, as words_of()
+  std::vector<MapSide> sides;
   /// For detection: of each of these lists one bone must be there, prefix and all; `#` as above.
   std::vector<std::vector<std::string>> required;
   std::vector<MapEntry> entries;
@@ -41,28 +58,32 @@ std::optional<Map> find_map(const std::string& name_or_path,
                             const std::vector<std::string>& template_folders,
                             Diagnostics& diagnostics);
 
-/// The map that finds most of its bones in the skeleton, of those whose required bones are all
-/// there. None fits: an error that lists the maps.
-std::optional<Map> detect_map(const tags::ForeignSkeleton& skeleton,
+/// All maps of the template folders, by name; a folder hides maps of those after it.
+std::vector<Map> all_maps(const std::vector<std::string>& template_folders,
+                          Diagnostics& diagnostics);
+
+/// How well a map serves to fit a template to a skeleton.
+struct MapTrial {
+  const Map* map = nullptr;
+  std::vector<std::pair<std::string, int>> matched;  ///< joint and glTF node of its bone
+  std::size_t required = 0;                          ///< joints of the template that must have one
+  std::vector<std::string> missing;                  ///< those that have none
+};
+
+/// Tries all maps whose required bones are there, best first: fewest missing joints, then those by
+/// the humanoid table, then most bones, then names as they are before words.
+std::vector<MapTrial> try_maps(const std::vector<Map>& maps, const Expanded& expanded,
+                               const tags::ForeignSkeleton& skeleton);
+
+/// The map that fits the template to the skeleton best. None without missing joints: an error that
+/// says which came nearest.
+std::optional<Map> detect_map(const Expanded& expanded, const tags::ForeignSkeleton& skeleton,
                               const std::vector<std::string>& template_folders,
                               Diagnostics& diagnostics);
 
-/// Bones of a skeleton by the names that a map uses, compared without case.
-class BoneNames {
- public:
-  BoneNames(const Map& map, const tags::ForeignSkeleton& skeleton);
-  /// Index into ForeignSkeleton::joints; -1: none. Of several, the first in a skin, else the first.
-  int find(std::string_view bone) const;
-  /// All names without what the map cuts off, sorted: for suggestions.
-  std::vector<std::string> names() const;
-
- private:
-  struct Bone {
-    std::string folded;  ///< as compared
-    std::string name;
-    int joint;
-  };
-  std::vector<Bone> sorted_;
-};
+/// For a user's own map: warns of lines that no joint of the template has, and of bones that the
+/// model does not have.
+void check_map(const Map& map, const Expanded& expanded, const tags::ForeignSkeleton& skeleton,
+               Diagnostics& diagnostics);
 
 }  // namespace rigc::templates

@@ -9,17 +9,11 @@
 #include "base/ids.h"
 #include "base/text.h"
 #include "templates/codes.h"
+#include "templates/format.h"
 #include "templates/reader.h"
 
 namespace rigc::templates {
 namespace {
-
-const std::vector<std::string>& known_keys() {
-  static const std::vector<std::string> kKeys = {
-      "rigc",     "name",    "was",        "version", "description", "preview", "global", "units",
-      "features", "modules", "parameters", "needs",   "joints",      "parts",   "shapes"};
-  return kKeys;
-}
 
 bool read_format(Reader& reader, const yaml::Node& root) {
   const yaml::Node* format = root.find("rigc");
@@ -40,7 +34,7 @@ void read_version(Reader& reader, const yaml::Node& root) {
   if (!node) return;
   const auto version = yaml::as_integer(*node, "version", reader.diagnostics);
   if (!version) return;
-  if (*version < 1 || *version > 1'000'000'000)
+  if (*version < 1 || *version > kMostVersion)
     reader.error(codes::kNotAllowed, node->span, fmt::format("version {} is below 1", *version),
                  "versions count from 1 and rise with every published change");
   else
@@ -57,7 +51,7 @@ void read_units(Reader& reader, const yaml::Node& root) {
   else
     reader.error(codes::kUnknownWord, node->span,
                  fmt::format("units: \"{}\" is not known", printable(*units, 60)),
-                 suggest(*units, {"metre", "centimetre"}));
+                 suggest(*units, template_format().words("units")));
 }
 
 void read_head(Reader& reader, const yaml::Node& root) {
@@ -118,11 +112,11 @@ std::optional<Template> read(std::uint32_t file, const catalog::Catalogue& catal
 
   Reader reader{catalogue, diagnostics, out};
   if (!root->is_map() && !root->is_null()) {
-    yaml::check_keys(*root, known_keys(), "a template", diagnostics);
+    yaml::check_section(*root, template_format(), diagnostics);
     return std::nullopt;
   }
   if (!read_format(reader, *root)) return std::nullopt;
-  yaml::check_keys(*root, known_keys(), "a template", diagnostics);
+  yaml::check_section(*root, template_format(), diagnostics);
   read_head(reader, *root);
   read_body(reader, *root);
   if (diagnostics.errors() != errors_before) return std::nullopt;

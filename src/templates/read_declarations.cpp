@@ -3,11 +3,12 @@
 // Test: tests/templates/read_test.cpp
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 
 #include "base/text.h"
 #include "templates/arguments.h"
 #include "templates/codes.h"
+#include "templates/format.h"
 #include "templates/reader.h"
 
 namespace rigc::templates {
@@ -16,23 +17,14 @@ namespace {
 using catalog::Parameter;
 using catalog::ParameterType;
 
-/// The types that a template's parameter may have.
-constexpr std::array kTypes = {
-    ParameterType::number, ParameterType::integer,     ParameterType::boolean,
-    ParameterType::angle,  ParameterType::length,      ParameterType::vec3,
-    ParameterType::color,  ParameterType::enumeration, ParameterType::text};
-
 std::optional<ParameterType> read_type(Reader& reader, const yaml::Node& node) {
   const auto text = yaml::as_text(node, "type", reader.diagnostics);
   if (!text) return std::nullopt;
-  std::vector<std::string> names;
-  for (const ParameterType type : kTypes) {
-    if (catalog::name_of(type) == *text) return type;
-    names.emplace_back(catalog::name_of(type));
-  }
+  const std::vector<std::string>& types = parameter_format().words("type");
+  if (std::count(types.begin(), types.end(), *text) != 0) return catalog::parse_type(*text);
   reader.error(codes::kUnknownWord, node.span,
                fmt::format("type: \"{}\" is no type of a parameter", printable(*text, 60)),
-               suggest(*text, names));
+               suggest(*text, types));
   return std::nullopt;
 }
 
@@ -62,13 +54,12 @@ void read_limits(Reader& reader, const yaml::Node& node, Parameter& parameter) {
 }
 
 void read_parameter(Reader& reader, const yaml::Node::Entry& entry) {
-  static const std::vector<std::string> kKeys = {"type", "default", "min", "max", "values", "help"};
   const std::string what = fmt::format("the parameter {}", printable(entry.key, 60));
   if (!is_name(entry.key))
     reader.error(codes::kNotAllowed, entry.key_span,
                  fmt::format("\"{}\" is not a name", printable(entry.key, 60)));
   const yaml::Node& node = entry.value;
-  if (!yaml::check_keys(node, kKeys, what, reader.diagnostics)) return;
+  if (!yaml::check_section(node, parameter_format(), what, reader.diagnostics)) return;
   Parameter parameter;
   parameter.name = entry.key;
   const yaml::Node* type_node = reader.required(node, "type", what);
@@ -89,7 +80,6 @@ void read_parameter(Reader& reader, const yaml::Node::Entry& entry) {
 }
 
 void read_feature(Reader& reader, const yaml::Node::Entry& entry) {
-  static const std::vector<std::string> kKeys = {"kind", "title", "help", "default", "switches"};
   const yaml::Node& node = entry.value;
   const std::string what = fmt::format("the feature {}", printable(entry.key, 60));
   if (!is_name(entry.key))
@@ -98,7 +88,7 @@ void read_feature(Reader& reader, const yaml::Node::Entry& entry) {
   tags::FeatureDeclaration feature;
   feature.name = entry.key;
   if (!node.is_null()) {
-    if (!yaml::check_keys(node, kKeys, what, reader.diagnostics)) return;
+    if (!yaml::check_section(node, feature_declaration_format(), what, reader.diagnostics)) return;
     if (const yaml::Node* kind = node.find("kind"))
       feature.kind = yaml::as_name(*kind, "kind", reader.diagnostics).value_or("");
     if (const yaml::Node* title = node.find("title"))

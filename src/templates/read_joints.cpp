@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "templates/arguments.h"
 #include "templates/codes.h"
+#include "templates/format.h"
 #include "templates/reader.h"
 
 namespace rigc::templates {
@@ -35,10 +36,7 @@ void read_identifiers(Reader& reader, const yaml::Node& node, Joint& joint) {
 }
 
 void read_joint(Reader& reader, const yaml::Node& node) {
-  static const std::vector<std::string> kKeys = {
-      "name",   "parent", "at",    "translate", "rotate", "quat", "orient", "scale", "local",
-      "global", "label",  "chain", "optional",  "helper", "was",  "uid",    "if",    "tags"};
-  if (!yaml::check_keys(node, kKeys, "a joint", reader.diagnostics) && !node.is_map()) return;
+  if (!yaml::check_section(node, joint_format(), reader.diagnostics) && !node.is_map()) return;
   Joint joint;
   joint.span = node.span;
   if (const yaml::Node* name = reader.required(node, "name", "a joint")) {

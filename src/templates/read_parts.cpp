@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "templates/arguments.h"
 #include "templates/codes.h"
+#include "templates/format.h"
 #include "templates/reader.h"
 
 namespace rigc::templates {
@@ -25,7 +26,7 @@ void read_mirror(Reader& reader, const yaml::Node& node, Part& part) {
   else
     reader.error(codes::kUnknownWord, node.span,
                  fmt::format("mirror: \"{}\" is no axis", printable(*text, 40)),
-                 suggest(*text, {"x", "y", "z"}));
+                 suggest(*text, part_format().words("mirror")));
 }
 
 void read_groups(Reader& reader, const yaml::Node& node, Part& part) {
@@ -56,16 +57,14 @@ void read_with(Reader& reader, const yaml::Node& node, Part& part) {
 void read_size(Reader& reader, const yaml::Node& node, Part& part) {
   const auto size = yaml::as_number(node, "size", reader.diagnostics);
   if (!size) return;
-  if (*size > 1e-6)
+  if (*size > kSmallestScale)
     part.size = *size;
   else
     reader.error(codes::kNotAllowed, node.span, "size: a number above 0 is needed");
 }
 
 void read_part(Reader& reader, const yaml::Node& node) {
-  static const std::vector<std::string> kKeys = {
-      "template", "as", "was", "attach", "mirror", "at", "rotate", "size", "with", "groups", "if"};
-  if (!yaml::check_keys(node, kKeys, "a part", reader.diagnostics) && !node.is_map()) return;
+  if (!yaml::check_section(node, part_format(), reader.diagnostics) && !node.is_map()) return;
   Part part;
   part.span = part.as_span = part.groups_span = node.span;
   if (const yaml::Node* reference = reader.required(node, "template", "a part")) {

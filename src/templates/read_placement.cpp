@@ -6,17 +6,15 @@
 #include "base/text.h"
 #include "templates/arguments.h"
 #include "templates/codes.h"
+#include "templates/format.h"
 #include "templates/reader.h"
 
 namespace rigc::templates {
 namespace {
 
-constexpr int kMostInChain = 1000;
-
 std::optional<math::Vec3> read_axis(Reader& reader, const yaml::Node& node, std::string_view what) {
   const auto text = yaml::as_text(node, what, reader.diagnostics);
   if (!text) return std::nullopt;
-  static const std::vector<std::string> kAxes = {"+x", "-x", "+y", "-y", "+z", "-z"};
   std::string_view axis = *text;
   double sign = 1;
   if (starts_with(axis, "+") || starts_with(axis, "-")) {
@@ -28,13 +26,12 @@ std::optional<math::Vec3> read_axis(Reader& reader, const yaml::Node& node, std:
   if (axis == "z") return math::Vec3{0, 0, sign};
   reader.error(codes::kUnknownWord, node.span,
                fmt::format("{}: \"{}\" is no axis", what, printable(*text, 40)),
-               suggest(*text, kAxes));
+               suggest(*text, orient_format().words("aim")));
   return std::nullopt;
 }
 
 void read_orient(Reader& reader, const yaml::Node& node, Joint& joint) {
-  static const std::vector<std::string> kKeys = {"aim", "toward", "up", "up_toward"};
-  if (!yaml::check_keys(node, kKeys, "orient", reader.diagnostics)) return;
+  if (!yaml::check_section(node, orient_format(), reader.diagnostics)) return;
   Orient orient;
   orient.span = node.span;
   if (const yaml::Node* aim = node.find("aim"))
@@ -108,7 +105,7 @@ void read_position(Reader& reader, const yaml::Node& node, Joint& joint) {
 void read_scale(Reader& reader, const yaml::Node& node, Joint& joint) {
   const auto scale = reader.vector(node, "scale");
   if (!scale) return;
-  if (scale->x > 1e-6 && scale->y > 1e-6 && scale->z > 1e-6)
+  if (scale->x > kSmallestScale && scale->y > kSmallestScale && scale->z > kSmallestScale)
     joint.placement.scale = *scale;
   else
     reader.error(codes::kNotAllowed, node.span, "scale: every number must be above 0",
@@ -139,8 +136,7 @@ std::optional<Count> read_count(Reader& reader, const yaml::Node& node) {
 }
 
 void read_chain(Reader& reader, const yaml::Node& node, Joint& joint) {
-  static const std::vector<std::string> kKeys = {"count", "to"};
-  if (!yaml::check_keys(node, kKeys, "chain", reader.diagnostics)) return;
+  if (!yaml::check_section(node, chain_format(), reader.diagnostics)) return;
   Chain chain;
   chain.span = node.span;
   if (const yaml::Node* count = reader.required(node, "count", "a chain"))

@@ -9,6 +9,7 @@
 #include "catalog/descriptor.h"
 #include "templates/arguments.h"
 #include "templates/codes.h"
+#include "templates/format.h"
 #include "templates/reader.h"
 
 namespace rigc::templates {
@@ -51,13 +52,11 @@ void read_stage(Reader& reader, const yaml::Node& node, tags::CommandTag& tag) {
   else
     reader.error(codes::kUnknownWord, node.span,
                  fmt::format("stage: \"{}\" is no stage", printable(*text, 60)),
-                 suggest(*text, {"build", "connect", "finish", "optimize"}));
+                 suggest(*text, command_format().words("stage")));
 }
 
 void read_command(Reader& reader, const yaml::Node& node, int feature, Joint& joint) {
-  static const std::vector<std::string> kKeys = {"command", "id",   "comment", "stage",
-                                                 "on",      "with", "was",     "if"};
-  yaml::check_keys(node, kKeys, "a command", reader.diagnostics);
+  yaml::check_section(node, command_format(), reader.diagnostics);
   Command command;
   tags::CommandTag& tag = command.tag;
   const yaml::Node& module_node = *node.find("command");
@@ -115,9 +114,7 @@ void check_declaration(Reader& reader, const yaml::Node& node, tags::FeatureTag&
 }
 
 int read_feature_tag(Reader& reader, const yaml::Node& node, Joint& joint) {
-  static const std::vector<std::string> kKeys = {"feature", "kind", "switch",
-                                                 "on",      "if",   "commands"};
-  yaml::check_keys(node, kKeys, "a feature", reader.diagnostics);
+  yaml::check_section(node, feature_format(), reader.diagnostics);
   Feature feature;
   tags::FeatureTag& tag = feature.tag;
   tag.span = node.span;

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -298,4 +299,48 @@ TEST_CASE("bake: motion that glTF cannot hold is reported") {
   Diagnostics diagnostics;
   CHECK_FALSE(bake::bake(arm.stage.scene, arm.stage.nodes(), clip, {}, report, diagnostics));
   CHECK(numbers(diagnostics) == std::vector<int>{codes::kNotFinite.number});
+}
+
+TEST_CASE("bake: limits of controls and of joints with channels of their own hold") {
+  Arm arm;
+  const auto limit = [&](NodeId node, std::vector<double> bounds) {
+    const NodeId limits = arm.stage.made(scene::Kind::limits, "limits");
+    arm.stage.edit.connect({node, transform::kWorld}, {limits, scene::limits::kNode});
+    arm.stage.edit.set({limits, scene::limits::kBounds}, std::move(bounds));
+    arm.stage.edit.set({limits, scene::limits::kOrder}, std::string("xyz"));
+  };
+  limit(arm.upper_control, {1, 1, 0.25});  // no higher than that
+  limit(arm.hand, {0, 0, 0, 0, 1, 0.6});   // which no control drives
+  anim::Clip clip;
+  clip.channels.push_back(
+      channel(arm.upper_control, Path::translation, {0, 1}, {0, 0, 0, 0, 1, 0}));
+  clip.channels.push_back(channel(arm.hand, Path::translation, {0, 1}, {0.4f, 0, 0, 0.8f, 0, 0}));
+  Report report;
+  const anim::Clip out = baked(arm.stage, clip, {}, report);
+  CHECK(std::find(report.driven.begin(), report.driven.end(), static_cast<int>(arm.hand.index)) !=
+        report.driven.end());
+  for (const double time : {0.0, 0.2, 0.5, 1.0}) {
+    const auto wanted = evaluated(arm.stage, clip, time);
+    const auto shown = played(arm.stage, as_scene(arm.stage), out, time);
+    for (const NodeId joint : {arm.upper, arm.lower, arm.hand})
+      CHECK(difference(shown[joint.index], wanted[joint.index]) < 1e-5);
+  }
+  const auto end = played(arm.stage, as_scene(arm.stage), out, 1);
+  const math::Vec3 reach = end[arm.hand.index].origin - end[arm.lower.index].origin;
+  CHECK(std::abs(math::length(reach) - 0.6) < 1e-6);
+}
+
+TEST_CASE("bake: keys on an attribute that animators may not key have no effect") {
+  Arm arm;
+  const scene::Plug size =
+      arm.stage.edit.add_attribute(arm.upper_control, {"size", {}, 1, 1, {}, {}});
+  for (std::int8_t axis = 0; axis < 3; ++axis)
+    arm.stage.edit.connect(size, {arm.upper_control, transform::kScale, -1, axis});
+  anim::Clip clip;
+  clip.channels.push_back(channel(arm.upper_control, Path::attribute, {0, 1}, {1, 3}));
+  clip.channels.back().attribute = "size";
+  Report report;
+  CHECK_FALSE(baked(arm.stage, clip, {}, report).channels.empty());
+  arm.stage.edit.set_access(size, false, false);
+  CHECK(baked(arm.stage, clip, {}, report).channels.empty());
 }

@@ -178,16 +178,17 @@ TEST_CASE("base json: nesting") {
   CHECK(value.items()[0].pointer() == repeat("/1", 511) + "/0");
 }
 
-TEST_CASE("base json: a million elements") {
-  const auto document = good(fmt::format("[{}[]]", repeat("[1,2],", 1'000'000)));
+TEST_CASE("base json: many elements") {
+  const auto document = good(fmt::format("[{}[]]", repeat("[1,2],", 600'000)));
   const auto items = document.root().items();
   std::size_t numbers = 0;
   for (const json::Value& item : items) numbers += item.items().size();
-  CHECK(numbers == 2'000'000);
+  CHECK(numbers == 1'200'000);
 }
 
 TEST_CASE("base json: a text that is too large") {
   CHECK(code_of(std::string((std::size_t{1} << 28) + 1, ' ')) == codes::kJsonTooLarge.number);
+  CHECK(code_of("[" + repeat("0,", 4'000'000) + "0]") == codes::kJsonTooLarge.number);
 }
 
 TEST_CASE("base json: a moved document keeps its text") {

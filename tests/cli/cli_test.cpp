@@ -174,6 +174,9 @@ TEST_CASE("cli: --json prints one JSON document and nothing else") {
         {"modules", "--json"},
         {"modules", "control", "--json"},
         {"schema", "control", "--json"},
+        {"schema", "template"},
+        {"schema", "map"},
+        {"schema", "module"},
         {"schema", "RIGC_rig", "--json"}}) {
     INFO(arguments.front());
     const Outcome outcome = run_rigc(arguments, here);
@@ -184,8 +187,8 @@ TEST_CASE("cli: --json prints one JSON document and nothing else") {
   const Outcome bad = run_rigc({"check", "bad.yaml", "lever.yaml", "--json"}, here);
   CHECK(bad.status == 1);
   CHECK(rigc::test::is_json(bad.out));
-  CHECK(rigc::test::json_at(bad.out, "/0/ok") == "false");
-  CHECK(rigc::test::json_at(bad.out, "/1/ok") == "true");
+  CHECK(rigc::test::json_at(bad.out, "/files/0/errors") == "1");
+  CHECK(rigc::test::json_at(bad.out, "/files/1/errors") == "0");
 }
 
 TEST_CASE("cli: inspect and query have the blueprint's form") {
@@ -198,11 +201,11 @@ TEST_CASE("cli: inspect and query have the blueprint's form") {
   using rigc::test::json_keys;
   CHECK(json_keys(inspected, "") == "clips rigs ");
   CHECK(json_keys(inspected, "/rigs/0") ==
-        "commands controls features global groups id joints orphans template ");
+        "commands controls features global groups id joints layers orphans sets template ");
   CHECK(json_keys(inspected, "/rigs/0/template") == "name version ");
   CHECK(json_keys(inspected, "/rigs/0/joints/1") == "label local name node uid ");
   CHECK(json_keys(inspected, "/rigs/0/controls/0") ==
-        "attributes id identity label local module name node opposite role ");
+        "attributes hidden id identity label limits local locked module name node opposite role ");
   CHECK(json_at(inspected, "/rigs/0/template/name") == "\"lever\"");
   CHECK(json_at(inspected, "/rigs/0/groups") == "[\"lever\"]");
   CHECK(json_at(inspected, "/rigs/0/joints/1/label") == "\"tip\"");

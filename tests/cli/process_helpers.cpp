@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -42,12 +43,20 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
   return result;
 }
 
-int wait_for(pid_t child) {
+void limit(pid_t child, __rlimit_resource resource, std::size_t most) {
+  const rlimit both = {most, most};
+  if (most != 0 && prlimit(child, resource, &both, nullptr) != 0 && errno != ESRCH)
+    throw std::runtime_error("prlimit failed");
+}
+
+void wait_for(pid_t child, Outcome& outcome) {
   int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) throw std::runtime_error("waitpid failed");
+  rusage usage{};
+  while (wait4(child, &status, 0, &usage) < 0) {
+    if (errno != EINTR) throw std::runtime_error("wait4 failed");
   }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  outcome.peak_bytes = static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
 }  // namespace
@@ -88,8 +97,11 @@ Outcome run_program(const std::string& binary, const std::vector<std::string>& a
   posix_spawn_file_actions_destroy(&actions);
   if (failed != 0) throw std::runtime_error("cannot start " + binary);
 
+  limit(child, RLIMIT_AS, surroundings.address_space);
+  limit(child, RLIMIT_CPU, surroundings.cpu_seconds);
+
   Outcome outcome;
-  outcome.status = wait_for(child);
+  wait_for(child, outcome);
   outcome.out = file_text(out);
   outcome.err = file_text(err);
   fs::remove(out);

@@ -10,15 +10,19 @@
 namespace rigc::test {
 
 struct Outcome {
-  int status = -1;  ///< exit status; 128 + signal where a signal ended it
+  int status = -1;             ///< exit status; 128 + signal where a signal ended it
+  std::size_t peak_bytes = 0;  ///< most memory that was resident at once
   std::string out;
   std::string err;
 };
 
-/// How rigc is started: the folder it stands in, and environment variables that are set for it.
+/// How rigc is started: the folder it stands in, environment variables that are set for it, and
+/// what it may use at most; 0: no limit.
 struct Surroundings {
   std::filesystem::path folder = ".";
-  std::vector<std::pair<std::string, std::string>> environment;
+  std::vector<std::pair<std::string, std::string>> environment = {};
+  std::size_t address_space = 0;  ///< bytes
+  std::size_t cpu_seconds = 0;
 };
 
 /// Runs the program of RIGC_BINARY with these arguments and no standard input.

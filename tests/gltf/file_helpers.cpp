@@ -62,7 +62,7 @@ std::string write_output(const Output& output, const std::string& path,
                          const std::string& source_folder) {
   const std::string folder = folder_of(path);
   for (const ExtraFile& file : output.extra_files)
-    write_bytes(join_path(folder, file.name), file.bytes);
+    write_bytes(join_path(folder, file.name), text(file.bytes));
   for (const std::string& name : output.copies) {
     const fs::path target = fs::path(folder) / name;
     fs::create_directories(target.parent_path());
@@ -77,9 +77,16 @@ void allow_messages_of(const std::string& path, const std::string& model) {
   write_bytes(path + ".model", fs::absolute(model).string() + "\n");
 }
 
+std::string text(const Bytes& bytes) {
+  Diagnostics diagnostics;
+  const auto read = bytes.text(diagnostics);
+  REQUIRE(read);
+  return *read;
+}
+
 std::string whole(const Output& output) {
   std::string bytes;
-  for (std::string_view piece : output.pieces) bytes += piece;
+  for (const Bytes& piece : output.pieces) bytes += text(piece);
   return bytes;
 }
 

@@ -25,6 +25,8 @@ void write_bytes(const std::string& path, std::string_view bytes);
 /// `source_folder`.
 std::string write_output(const Output& output, const std::string& path,
                          const std::string& source_folder);
+/// All of some bytes, wherever they are.
+std::string text(const Bytes& bytes);
 std::string whole(const Output& output);
 /// Tells the validator that `path` may have the complaints that `model` has.
 void allow_messages_of(const std::string& path, const std::string& model);

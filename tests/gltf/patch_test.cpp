@@ -89,7 +89,8 @@ void append_tail(Patch& patch, std::mt19937_64& random) {
   patch.add_child(-1, first);
   patch.add_child(first, first + 1);
   patch.append("materials", "{}");
-  patch.set_root_extension("RIGC_rig", R"({"version":1,"rigs":[]})");
+  patch.set_root_extension("RIGC_rig",
+                           R"({"version":1,"rigs":[],"before":)" + patch.before() + "}");
   patch.use_extension("KHR_animation_pointer");
 }
 
@@ -130,7 +131,7 @@ TEST_CASE("gltf patch: without changes every file comes out as it went in") {
     Patch patch(file);
     const Output output = finished(patch, file.binary);
     CHECK(output.unchanged);
-    CHECK(whole(output) == *file.whole);
+    CHECK(whole(output) == text(file.whole));
 
     if (!file.root()["nodes"]) continue;
     Patch and_back(file);
@@ -140,7 +141,7 @@ TEST_CASE("gltf patch: without changes every file comes out as it went in") {
     and_back.set_root_extension("RIGC_rig", "");
     and_back.set_extra(0, "rigc", "1");
     and_back.set_extra(0, "rigc", "");
-    CHECK(whole(finished(and_back, file.binary)) == *file.whole);
+    CHECK(whole(finished(and_back, file.binary)) == text(file.whole));
   }
 }
 
@@ -172,14 +173,13 @@ TEST_CASE("gltf patch: what a file had stays at its index and in its bytes") {
       if (!touched) CHECK(changed.root()[key].text() == value.text());
     }
     for (std::size_t i = 0; i < file.buffers.size(); ++i)
-      CHECK(changed.buffers[i].bytes.substr(0, file.buffers[i].bytes.size()) ==
-            file.buffers[i].bytes);
+      CHECK(text(changed.buffers[i].bytes.part(0, file.buffers[i].bytes.size())) ==
+            text(file.buffers[i].bytes));
     CHECK(changed.other_chunks.size() == file.other_chunks.size());
 
     Patch back(changed);
     for (const char* array : {"nodes", "meshes", "materials", "accessors", "bufferViews"})
       back.truncate(array, static_cast<int>(file.root()[array].size()));
-    back.truncate_buffer(Patch(file).buffer_length());
     back.remove_child(-1, static_cast<int>(file.root()["nodes"].size()));
     back.set_root_extension("RIGC_rig", "");
     bool had_pointer = false;
@@ -189,11 +189,7 @@ TEST_CASE("gltf patch: what a file had stays at its index and in its bytes") {
     const std::string second = folder + "/back_" + std::filesystem::path(path).filename().string();
     const File again = reopened(finished(back, file.binary), second, folder);
     allow_messages_of(second, path);
-    // An empty `extensions` and a missing scene cannot be told from ours once they are written.
-    if (file.root()["scenes"] && !is_empty_container(file.root()["extensions"].text())) {
-      CHECK(again.root().text() == file.root().text());
-      CHECK(again.bin == file.bin);
-    }
+    CHECK(text(again.whole) == text(file.whole));
   }
 }
 
@@ -211,7 +207,7 @@ TEST_CASE("gltf patch: a cut tail takes its bytes along without being told the l
     Patch patch(file);
     for (int i = 0; i < 4; ++i) patch.append(some_accessor(random));
     const File longer = reopened(finished(patch, true), folder + "/b.glb", folder);
-    CHECK(longer.whole->size() > original.size());
+    CHECK(longer.whole.size() > original.size());
     Patch back(longer);
     back.truncate("accessors", 0);
     back.truncate("bufferViews", with_bin ? 1 : 0);
@@ -235,11 +231,11 @@ TEST_CASE("gltf patch: new data of a .gltf lie in a file named by content") {
   const File changed = reopened(output, folder + "/a.gltf", folder);
   REQUIRE(changed.buffers.size() == 2);
   CHECK(changed.buffers[1].uri == output.extra_files[0].name);
-  CHECK(changed.buffers[1].bytes == output.extra_files[0].bytes);
+  CHECK(text(changed.buffers[1].bytes) == text(output.extra_files[0].bytes));
   Patch back(changed);
   back.truncate("accessors", 4);
   back.truncate("bufferViews", 4);
-  CHECK(whole(finished(back, false)) == *file.whole);
+  CHECK(whole(finished(back, false)) == text(file.whole));
 }
 
 TEST_CASE("gltf patch: from .gltf to .glb and back the data are the same") {
@@ -264,8 +260,8 @@ TEST_CASE("gltf patch: from .gltf to .glb and back the data are the same") {
       allow_messages_of(copy, path);
       CHECK(changed.binary != file.binary);
       for (std::size_t i = 0; i < file.buffers.size(); ++i)
-        CHECK(changed.buffers[i].bytes.substr(0, file.buffers[i].bytes.size()) ==
-              file.buffers[i].bytes);
+        CHECK(text(changed.buffers[i].bytes.part(0, file.buffers[i].bytes.size())) ==
+              text(file.buffers[i].bytes));
       if (!file.buffers.empty() && !file.buffers[0].bytes.empty())
         CHECK(changed.buffers[0].uri.empty() == changed.binary);
       for (const char* array : {"nodes", "meshes", "images", "animations"})
@@ -295,8 +291,8 @@ TEST_CASE("gltf patch: a .glb whose first buffer is a file gets a buffer of its 
   const File changed = reopened(output, folder + "/b.glb", folder);
   REQUIRE(changed.buffers.size() == 2);
   CHECK(changed.buffers[1].uri == output.extra_files[0].name);
-  CHECK(changed.buffers[1].bytes == data);
-  CHECK(changed.buffers[0].bytes == "12345678");
+  CHECK(text(changed.buffers[1].bytes) == data);
+  CHECK(text(changed.buffers[0].bytes) == "12345678");
 }
 
 TEST_CASE("gltf patch: members, children and extras of nodes") {
@@ -352,7 +348,7 @@ TEST_CASE("gltf patch: the empty file becomes a model") {
   Patch none(file);
   const File bare = reopened(finished(none, true), folder + "/bare.glb", folder);
   CHECK(bare.root().text() == file.root().text());
-  CHECK_FALSE(bare.bin.data());
+  CHECK_FALSE(bare.bin);
 }
 
 TEST_CASE("gltf patch: a file without scenes gets one") {

@@ -59,7 +59,7 @@ std::string bytes_of(const File& file, const json::Value& accessor) {
   const json::Value view =
       file.root()["bufferViews"]
           .items()[static_cast<std::size_t>(*accessor["bufferView"].integer())];
-  return std::string(file.buffers[0].bytes.substr(
+  return text(file.buffers[0].bytes.part(
       static_cast<std::size_t>(view["byteOffset"].integer().value_or(0)),
       static_cast<std::size_t>(*view["byteLength"].integer())));
 }

@@ -98,6 +98,7 @@ void add_tags(Rig& rig, Diagnostics& diagnostics) {
   tags::TaggedJoint& joint = skeleton.joints.back();
   joint.was = {{hash64("upperarm"), 0}, {hash64("humerus"), 3}};
   joint.mirror = {true, {hash64("other"), 0}};
+  joint.template_parent = {hash64("above"), 1};
   joint.optional = true;
   joint.template_index = 1;
   joint.span = {file, 4, 5, 0};
@@ -159,7 +160,7 @@ RigMaker make_sample(Diagnostics& diagnostics, int foreign_base, int foreign_tip
   maker.edit.add_attribute(tip_control, {"ik_fk", Flavour::number, 1, 0.1, 0, 1, true});
   maker.edit.add_attribute(tip_control, {"roll", Flavour::angle, third, 0, {}, {}, true});
   maker.edit.add_attribute(tip_control, {"count", Flavour::integer, 3, 0, {}, {}, true});
-  maker.edit.add_attribute(tip_control, {"hidden", Flavour::boolean, 1, 1, {}, {}, false});
+  maker.edit.add_attribute(tip_control, {"secret", Flavour::boolean, 1, 1, {}, {}, false});
   const NodeId expression = maker.node(Kind::expression, "sum", {}, 1);
   maker.edit.set({expression, scene::expression::kCode}, std::string("$0 * 2 < 3"));
   maker.edit.connect({tip_control, scene::kUserAttributes},

@@ -47,9 +47,9 @@ TEST_CASE("gltf rig_json: everything comes back") {
   rig.nodes.assign(rig.scene.size(), -1);
   for (std::size_t i = 0; i < rig.nodes.size(); ++i) rig.nodes[i] = static_cast<int>(i) - 1;
   rig.ancestor = 2;
-  rig.owned.goes.nodes = {3, 4};
-  rig.owned.stays.accessors = {7, 8};
-  rig.owned.buffer_length = 1234567890123;
+  for (const int node : {3, 4, 5, 9, 11, 12}) rig.owned.goes.nodes.add(node);
+  rig.owned.stays.accessors.add(7);
+  CHECK(rig.owned.goes.nodes.runs == std::vector<Range>{{3, 3}, {9, 1}, {11, 2}});
   const std::string text = to_json(rig, diagnostics.sources());
   const auto back = read(text, diagnostics);
   INFO(render(diagnostics, false));
@@ -68,6 +68,7 @@ TEST_CASE("gltf rig_json: everything comes back") {
   CHECK(is.was == was.was);
   CHECK(is.rest == was.rest);
   CHECK(is.mirror.opposite == was.mirror.opposite);
+  CHECK(is.template_parent == was.template_parent);
   CHECK(is.commands[0].with == was.commands[0].with);
   CHECK(is.commands[0].feature == 1);
   CHECK(diagnostics.sources().name(is.commands[0].span.file) == "parts/arm.yaml");

@@ -27,7 +27,7 @@ std::string gltf_text(Rig& rig) {
   REQUIRE(output);
   std::string text = whole(*output);
   for (const ExtraFile& extra : output->extra_files)
-    text = replaced(text, json::quote(extra.name), json::quote(data_uri(extra.bytes)));
+    text = replaced(text, json::quote(extra.name), json::quote(data_uri(test::text(extra.bytes))));
   return text;
 }
 
@@ -93,6 +93,28 @@ TEST_CASE("gltf rig_read: attributes that the rig drives and nodes that are no c
   const auto rigs = read(text, sample.diagnostics);
   REQUIRE(rigs);
   CHECK((*rigs)[0].scene.dump() == sample.rig.scene.dump());
+}
+
+TEST_CASE("gltf rig_read: what is locked stays, and that is said") {
+  Diagnostics diagnostics;
+  Rig rig = sample_rig(diagnostics);
+  scene::Journal journal;
+  const double locked = 1 + 8 * 7;  // translate.x, rotate
+  scene::Edit(rig.scene, journal, nullptr).set({kTipControl, scene::control::kLocked}, locked);
+  const std::string at = mark(rig, kTipControl);
+  const std::string text = gltf_text(rig);
+  const auto moved =
+      read(replaced(text, at, R"("translation":[1,2,3],"rotation":[1,0,0,0],)" + at), diagnostics);
+  REQUIRE(moved);
+  const math::Trs local = (*moved)[0].scene.local(kTipControl);
+  CHECK(local.translation == math::Vec3{0, 2, 3});
+  CHECK(local.rotation == math::Quat{});
+  REQUIRE(diagnostics.all().size() == 1);
+  CHECK(diagnostics.all()[0].code->number == codes::kLockedMoved.number);
+  // What is not locked moves without a word.
+  Diagnostics free;
+  REQUIRE(read(replaced(text, at, R"("translation":[0,2,3],)" + at), free));
+  CHECK(free.all().empty());
 }
 
 TEST_CASE("gltf rig_read: an attribute that is no number is a warning") {

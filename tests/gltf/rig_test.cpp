@@ -77,7 +77,7 @@ TEST_CASE("gltf rig: nodes show what the scene has") {
   CHECK(node["extras"]["ik_fk"].text() == "1.0");
   CHECK(node["extras"]["count"].text() == "3");
   CHECK(node["extras"]["roll"].number() == 1.0 / 3);
-  CHECK_FALSE(node["extras"]["hidden"]);
+  CHECK_FALSE(node["extras"]["secret"]);
   CHECK_FALSE(node["translation"]);
   const json::Value zero = node_of(file, rig, {2});
   CHECK(zero["translation"].items()[1].text() == "0.25");

@@ -81,3 +81,10 @@ TEST_CASE("modules fk_chain: translate lets a joint leave its place") {
   CHECK(test::distance(pose.position("tail[1]"), {0, 1.3, -0.5}) < 1e-12);
   CHECK(test::distance(pose.position("tail[2]"), {0, 1.3, -1}) < 1e-12);
 }
+
+TEST_CASE("modules fk_chain: joints that are named from last to first are refused") {
+  const test::Rig rig(test::tail(
+      4,
+      {{"tail", "{command: fk_chain, with: {joints: [\"tail[0]\", \"tail[2]\", \"tail[1]\"]}}"}}));
+  CHECK(test::codes(rig.diagnostics) == "RIG0460");
+}

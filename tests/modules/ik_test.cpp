@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "modules/bodies_helpers.h"
+#include "modules/hierarchy_helpers.h"
 #include "support/models.h"
 
 using namespace rigc;
@@ -231,7 +232,6 @@ TEST_CASE("modules ik: a straight chain bends to the stated side, on every model
                  row.first + "}}"}});
     for (const test::Model& model : test::models()) {
       CAPTURE(model.name);
-      if (model.name == "scaled root joint") continue;  // scales the chain's own first joint
       const test::Rig rig(text, model.change);
       INFO(test::text(rig.diagnostics));
       REQUIRE(rig.clean());
@@ -273,5 +273,97 @@ TEST_CASE("modules ik: the chain solver reaches with any number of joints") {
       const Vec3 at = pose.position("tail[" + std::to_string(i) + "]");
       CHECK(math::length(math::cross(math::normalised(end - start), at - start)) < 1e-6);
     }
+  }
+}
+
+TEST_CASE("modules ik: roll joints and scaled joints in a limb change neither reach nor lengths") {
+  const test::Rig plain(bent());
+  const std::map<std::string, test::Rig::Change> changes{
+      {"roll joints",
+       [](auto& s) {
+         test::put_between(s, "lower", 1);
+         test::put_between(s, "end", 1);
+         test::put_between(s, "end", 1);
+       }},
+      {"scaled roll joints",
+       [](auto& s) {
+         test::put_between(s, "lower", 3);
+         test::put_between(s, "end", 0.2);
+       }},
+      {"scaled joints",
+       [](auto& s) {
+         test::scale_below(s, "upper", 2);
+         test::scale_below(s, "lower", 0.01);
+         test::scale_below(s, "end", 7);
+       }},
+      {"mirrored joints",
+       [](auto& s) {
+         test::scale_below(s, "upper", -1);
+         test::put_between(s, "lower", 1);
+         test::scale_below(s, "lower", -2);
+       }},
+      {"mirrored first joint", [](auto& s) { test::scale_below(s, "upper", -1); }},
+      {"mirrored roll joint", [](auto& s) { test::put_between(s, "lower", -1); }}};
+  for (const auto& row : changes) {
+    CAPTURE(row.first);
+    const test::Rig rig(bent(), row.second);
+    INFO(test::text(rig.diagnostics));
+    REQUIRE(rig.clean());
+    CHECK(test::rest_error(rig) < 1e-9);
+    for (const Vec3 point : reachable()) {
+      test::Pose pose(rig), expected(plain);
+      pose.turn_in_world("base/control", math::from_euler_degrees({0, 20, 5}));
+      expected.turn_in_world("base/control", math::from_euler_degrees({0, 20, 5}));
+      pose.move_to(kGoal, point);
+      expected.move_to(kGoal, point);
+      const Limb is(pose), wanted(expected);
+      CHECK(test::distance(is.lower, wanted.lower) < 1e-9);
+      CHECK(test::distance(is.end, wanted.end) < 1e-9);
+      CHECK(length_error(rig, pose) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE(
+    "modules ik: where the template names no joint between start and end, the one there bends") {
+  const test::Rig rig(test::template_of(R"(joints:
+  - {name: upper, at: [0, 1, 0], local: limb, label: upper}
+  - {name: lower, parent: upper, at: [0, 0.51, 0.1]}
+  - name: end
+    parent: lower
+    at: [0, 0.12, 0.02]
+    local: limb
+    label: end
+    tags:
+      - {command: ik_handle, with: {start: limb.upper, end: .}}
+)"));
+  INFO(test::text(rig.diagnostics));
+  REQUIRE(rig.clean());
+  test::Pose pose(rig);
+  pose.translate("limb.end/ik_handle.handle", {0.2, 0.4, 0.2});
+  CHECK(test::distance(pose.position("limb.end"), {0.2, 0.4, 0.2}) < 1e-9);
+}
+
+TEST_CASE("modules ik: a chain with scaled joints reaches, at the lengths that it has") {
+  const std::string text = test::tail(
+      6, {{"base", "{command: control, with: {}}"},
+          {"tail",
+           "{command: control, id: goal, with: {drive: off, parent: base/control}}\n"
+           "{command: ik_handle, with: {solver: chain, start: \"tail[0]\", end: \"tail[END]\", "
+           "goal: \"./control#goal\", bend: up, iterations: 60}}"}});
+  const test::Rig rig(text, [](auto& s) {
+    test::scale_below(s, "tail_1", 0.5);
+    test::scale_below(s, "tail_3", 3);
+    test::put_between(s, "tail_4", 2);
+  });
+  INFO(test::text(rig.diagnostics));
+  REQUIRE(rig.clean());
+  CHECK(test::rest_error(rig) < 1e-9);
+  for (const Vec3 move : {Vec3{0.3, 0.2, 0.4}, Vec3{0, 0, 0.3}, Vec3{-0.4, 0.5, 0.6}}) {
+    test::Pose pose(rig);
+    const Vec3 point = rig.rest("tail[END]").origin + move;
+    pose.translate("tail[0]/control#goal", move);
+    CHECK(test::distance(pose.position("tail[END]"), point) < 1e-3);
+    CHECK(length_error(rig, pose) < 1e-9);
   }
 }

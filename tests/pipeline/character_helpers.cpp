@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -29,40 +30,100 @@ void put_word(std::string& bytes, std::uint32_t value) {
   bytes.append(reinterpret_cast<const char*>(&value), 4);
 }
 
-std::size_t inverse_bind_offset(const ordered_json& json, std::size_t joint) {
-  const auto& accessor =
-      json["accessors"][json["skins"][0]["inverseBindMatrices"].get<std::size_t>()];
-  const auto& view = json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
-  return view.value("byteOffset", std::size_t{0}) + accessor.value("byteOffset", std::size_t{0}) +
-         joint * 64;
-}
-
-math::Affine read_inverse_bind(const Character& c, std::size_t joint) {
-  float m[16];
-  std::memcpy(m, c.bin.data() + inverse_bind_offset(c.json, joint), 64);
-  return {{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}, {m[12], m[13], m[14]}};
-}
-
-void write_inverse_bind(Character& c, std::size_t joint, const math::Affine& a) {
-  const math::Vec3 columns[4] = {a.linear.x, a.linear.y, a.linear.z, a.origin};
-  float m[16];
-  for (int i = 0; i < 4; ++i) {
-    m[4 * i] = static_cast<float>(columns[i].x);
-    m[4 * i + 1] = static_cast<float>(columns[i].y);
-    m[4 * i + 2] = static_cast<float>(columns[i].z);
-    m[4 * i + 3] = i == 3 ? 1.0f : 0.0f;
+std::string decode_base64(const std::string& text) {
+  const auto digit = [](char c) -> std::uint32_t {
+    if (c >= 'A' && c <= 'Z') return static_cast<std::uint32_t>(c - 'A');
+    if (c >= 'a' && c <= 'z') return static_cast<std::uint32_t>(c - 'a' + 26);
+    if (c >= '0' && c <= '9') return static_cast<std::uint32_t>(c - '0' + 52);
+    return c == '+' ? 62 : 63;
+  };
+  std::string out;
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = bits << 6 | digit(c);
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    out += static_cast<char>(bits >> count & 255);
   }
-  std::memcpy(c.bin.data() + inverse_bind_offset(c.json, joint), m, 64);
+  return out;
 }
 
-/// The node above all joints: the skeleton's root hangs under it.
-int ancestor_of(const ordered_json& json) {
-  const std::vector<int> parents = parents_of(json);
-  std::vector<bool> joint(parents.size(), false);
-  for (int j : json["skins"][0]["joints"]) joint[static_cast<std::size_t>(j)] = true;
-  int at = json["skins"][0]["joints"][0];
-  while (at >= 0 && joint[static_cast<std::size_t>(at)]) at = parents[static_cast<std::size_t>(at)];
-  return at;
+/// All buffers of a .gltf one after the other as buffer 0.
+void join_buffers(Character& c, const std::string& folder) {
+  std::vector<std::size_t> starts;
+  for (const auto& buffer : c.json.value("buffers", ordered_json::array())) {
+    const std::string uri = buffer.value("uri", "");
+    const std::size_t comma = uri.find(";base64,");
+    c.bin.resize((c.bin.size() + 3) / 4 * 4, '\0');
+    starts.push_back(c.bin.size());
+    std::string bytes = comma == std::string::npos ? bytes_of(join_path(folder, uri))
+                                                   : decode_base64(uri.substr(comma + 8));
+    bytes.resize(buffer["byteLength"].get<std::size_t>(), '\0');
+    c.bin += bytes;
+  }
+  for (auto& view : c.json["bufferViews"]) {
+    view["byteOffset"] =
+        view.value("byteOffset", std::size_t{0}) + starts[view["buffer"].get<std::size_t>()];
+    view["buffer"] = 0;
+  }
+  c.json["buffers"] = ordered_json::array({{{"byteLength", c.bin.size()}}});
+}
+
+/// The lowest node above all of these joints that is none of them; -1 without one.
+int ancestor_of(const std::vector<int>& parents, const std::map<int, math::Affine>& binds) {
+  std::map<int, std::size_t> passed;
+  for (const auto& [node, bind] : binds) {
+    for (int at = node; at >= 0; at = parents[static_cast<std::size_t>(at)]) ++passed[at];
+  }
+  for (int at = binds.begin()->first; at >= 0; at = parents[static_cast<std::size_t>(at)]) {
+    if (passed[at] == binds.size() && !binds.contains(at)) return at;
+  }
+  return -1;
+}
+
+/// Puts a node above everything in the scene.
+int wrap_scene(ordered_json& json) {
+  const int wrapper = static_cast<int>(json["nodes"].size());
+  auto& scene = json["scenes"][json.value("scene", std::size_t{0})];
+  json["nodes"].push_back({{"name", "wrapper"}, {"children", scene["nodes"]}});
+  scene["nodes"] = {wrapper};
+  return wrapper;
+}
+
+/// Meshes and what only they need, and clips.
+void drop_all_but_skeletons(Character& c) {
+  for (const char* key : {"meshes", "materials", "textures", "images", "samplers", "animations",
+                          "accessors", "bufferViews", "cameras"}) {
+    c.json.erase(key);
+  }
+  for (auto& node : c.json["nodes"]) {
+    for (const char* key : {"mesh", "skin", "weights", "camera", "extensions"}) node.erase(key);
+  }
+  c.bin.clear();
+}
+
+void add_inverse_binds(Character& c, ordered_json& skin, const std::vector<math::Affine>& binds) {
+  const std::size_t start = c.bin.size();
+  for (const math::Affine& bind : binds) {
+    const math::Affine a = math::inverse(bind);
+    const math::Vec3 columns[4] = {a.linear.x, a.linear.y, a.linear.z, a.origin};
+    for (int i = 0; i < 4; ++i) {
+      const float column[4] = {static_cast<float>(columns[i].x), static_cast<float>(columns[i].y),
+                               static_cast<float>(columns[i].z), i == 3 ? 1.0f : 0.0f};
+      c.bin.append(reinterpret_cast<const char*>(column), 16);
+    }
+  }
+  skin["inverseBindMatrices"] = c.json["accessors"].size();
+  c.json["accessors"].push_back({{"bufferView", c.json["bufferViews"].size()},
+                                 {"componentType", 5126},
+                                 {"count", binds.size()},
+                                 {"type", "MAT4"}});
+  c.json["bufferViews"].push_back(
+      {{"buffer", 0}, {"byteOffset", start}, {"byteLength", c.bin.size() - start}});
+  c.json["buffers"] = ordered_json::array({{{"byteLength", c.bin.size()}}});
 }
 
 }  // namespace
@@ -77,9 +138,15 @@ std::string bytes_of(const std::string& path) {
   return text.str();
 }
 
-Character load_glb(const std::string& path) {
+Character load_character(const std::string& path) {
   const std::string bytes = bytes_of(path);
   REQUIRE(bytes.size() > 20);
+  if (!bytes.starts_with("glTF")) {
+    Character c;
+    c.json = ordered_json::parse(bytes);
+    join_buffers(c, folder_of(path));
+    return c;
+  }
   const std::size_t length = word(bytes, 12);
   Character c;
   c.json = ordered_json::parse(bytes.substr(20, length));
@@ -153,98 +220,94 @@ std::vector<int> parents_of(const ordered_json& json) {
   return parents;
 }
 
-Character with_random_axes(Character c, unsigned seed) {
-  std::mt19937_64 random(seed);
-  const auto number = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
-  const std::vector<int> joints = c.json["skins"][0]["joints"];
+Character changed(Character c, const std::map<int, math::Affine>& binds, const Change& change) {
+  drop_all_but_skeletons(c);
+  c.json["accessors"] = c.json["bufferViews"] = ordered_json::array();
+  int ancestor = ancestor_of(parents_of(c.json), binds);
+  if (ancestor < 0) ancestor = wrap_scene(c.json);
   const std::vector<int> parents = parents_of(c.json);
-  std::map<int, math::Affine> turns;
-  for (int joint : joints) {
-    const math::Quat q{number(), number(), number(), number()};
-    turns[joint] = math::rotation(math::normalised(q));
+  const auto node = [&](int i) -> ordered_json& {
+    return c.json["nodes"][static_cast<std::size_t>(i)];
+  };
+  std::map<int, math::Affine> worlds;  // of what is done, as it is in the changed copy
+  const std::function<math::Affine(int)> world = [&](int i) -> math::Affine {
+    if (i < 0) return {};
+    if (!worlds.contains(i))
+      worlds[i] = world(parents[static_cast<std::size_t>(i)]) * local_of(node(i));
+    return worlds[i];
+  };
+  const auto put = [&](int i, const math::Affine& place) {
+    set_local(node(i), math::inverse(world(parents[static_cast<std::size_t>(i)])) * place);
+    worlds[i] = place;
+  };
+  const math::Affine turn = math::rotation(math::from_euler_degrees({0, change.turn_degrees, 0}));
+  const math::Vec3 s = change.ancestor_scale;
+  const math::Affine scale{{{s.x, 0, 0}, {0, s.y, 0}, {0, 0, s.z}}, {}};
+  put(ancestor, turn * world(ancestor) * scale);
+  worlds.clear();
+
+  std::mt19937_64 random(change.axes_seed);
+  std::map<int, math::Affine> places;
+  for (const auto& [joint, bind] : binds) {
+    double q[4];
+    for (double& x : q) x = static_cast<double>(random() >> 11) * 0x1p-52 - 1;
+    const math::Affine axes =
+        change.axes_seed == 0
+            ? math::Affine{}
+            : math::rotation(math::normalised(math::Quat{q[0], q[1], q[2], q[3]}));
+    places[joint] = turn * bind * axes * scale;
   }
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    const int joint = joints[i];
-    auto& node = c.json["nodes"][static_cast<std::size_t>(joint)];
-    math::Affine local = local_of(node) * turns[joint];
-    const auto above = turns.find(parents[static_cast<std::size_t>(joint)]);
-    if (above != turns.end()) local = math::inverse(above->second) * local;
-    set_local(node, local);
-    write_inverse_bind(c, i, math::inverse(turns[joint]) * read_inverse_bind(c, i));
+  const std::function<void(int)> put_joint = [&](int joint) {
+    for (int at = parents[static_cast<std::size_t>(joint)]; at >= 0;
+         at = parents[static_cast<std::size_t>(at)]) {
+      if (places.contains(at) && !worlds.contains(at)) put_joint(at);
+    }
+    if (!worlds.contains(joint)) put(joint, places[joint]);
+  };
+  for (const auto& [joint, place] : places) put_joint(joint);
+  for (auto& skin : c.json["skins"]) {
+    std::vector<math::Affine> own;
+    for (const int joint : skin["joints"]) own.push_back(places.at(joint));
+    add_inverse_binds(c, skin, own);
   }
-  c.json.erase("animations");
   return c;
 }
 
-Character under_scaled_ancestor(Character c, math::Vec3 scale) {
-  const math::Affine s{{{scale.x, 0, 0}, {0, scale.y, 0}, {0, 0, scale.z}}, {}};
-  const math::Affine inverse = math::inverse(s);
-  auto& ancestor = c.json["nodes"][static_cast<std::size_t>(ancestor_of(c.json))];
-  const math::Affine above = local_of(ancestor);
-  ancestor["scale"] = {scale.x, scale.y, scale.z};
-  REQUIRE(above == math::Affine{});
-  const std::vector<int> joints = c.json["skins"][0]["joints"];
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    auto& node = c.json["nodes"][static_cast<std::size_t>(joints[i])];
-    set_local(node, inverse * local_of(node) * s);
-    write_inverse_bind(c, i, inverse * read_inverse_bind(c, i));
-  }
-  c.json.erase("animations");
-  return c;
-}
-
-Character turned(Character c, double degrees) {
-  auto& ancestor = c.json["nodes"][static_cast<std::size_t>(ancestor_of(c.json))];
-  const math::Affine turn = math::rotation(math::from_euler_degrees({0, degrees, 0}));
-  set_local(ancestor, turn * local_of(ancestor));
-  const std::vector<int> joints = c.json["skins"][0]["joints"];
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    write_inverse_bind(c, i, read_inverse_bind(c, i) * math::inverse(turn));
-  }
-  c.json.erase("animations");
-  return c;
-}
-
-std::map<std::string, int> joints_by_name(const ordered_json& json) {
-  std::map<std::string, int> out;
-  for (int joint : json["skins"][0]["joints"]) {
-    out[json["nodes"][static_cast<std::size_t>(joint)].value("name", "")] = joint;
-  }
-  return out;
-}
-
-std::vector<math::Affine> play(const std::string& path, const std::string& clip, double seconds) {
+std::vector<std::vector<math::Affine>> play(const std::string& path, const std::string& clip,
+                                            const std::vector<double>& seconds) {
   Diagnostics diagnostics;
-  const Character c = load_glb(path);
-  std::vector<math::Trs> locals;
-  for (const auto& node : c.json["nodes"]) locals.push_back(math::decompose(local_of(node)));
+  const Character c = load_character(path);
+  const std::vector<int> parents = parents_of(c.json);
+  std::vector<math::Trs> rest;
+  for (const auto& node : c.json["nodes"]) rest.push_back(math::decompose(local_of(node)));
   const auto file = gltf::open(path, diagnostics);
   REQUIRE(file);
   const auto clips = gltf::read_clips(*file, diagnostics);
   REQUIRE(clips);
-  bool found = clip.empty();
-  for (const anim::Clip& candidate : clips->clips) {
-    if (candidate.name != clip || clip.empty()) continue;
-    found = true;
-    for (const anim::Channel& channel : candidate.channels) {
+  const auto played = std::find_if(clips->clips.begin(), clips->clips.end(),
+                                   [&](const anim::Clip& one) { return one.name == clip; });
+  REQUIRE(played != clips->clips.end());
+  std::vector<std::vector<math::Affine>> all;
+  for (const double second : seconds) {
+    std::vector<math::Trs> locals = rest;
+    for (const anim::Channel& channel : played->channels) {
       double v[4] = {};
       math::Trs& local = locals[static_cast<std::size_t>(channel.node)];
-      anim::sample(channel.curve, channel.path == anim::Path::rotation, seconds, v);
+      anim::sample(channel.curve, channel.path == anim::Path::rotation, second, v);
       if (channel.path == anim::Path::translation) local.translation = {v[0], v[1], v[2]};
       if (channel.path == anim::Path::rotation)
         local.rotation = math::normalised(math::Quat{v[0], v[1], v[2], v[3]});
       if (channel.path == anim::Path::scale) local.scale = {v[0], v[1], v[2]};
     }
+    std::vector<math::Affine>& worlds = all.emplace_back();
+    for (std::size_t i = 0; i < locals.size(); ++i) {
+      math::Affine world = math::compose(locals[i]);
+      for (int at = parents[i]; at >= 0; at = parents[static_cast<std::size_t>(at)])
+        world = math::compose(locals[static_cast<std::size_t>(at)]) * world;
+      worlds.push_back(world);
+    }
   }
-  REQUIRE(found);
-  const std::vector<int> parents = parents_of(c.json);
-  std::vector<math::Affine> worlds(locals.size());
-  const std::function<math::Affine(std::size_t)> world = [&](std::size_t i) {
-    const math::Affine local = math::compose(locals[i]);
-    return parents[i] < 0 ? local : world(static_cast<std::size_t>(parents[i])) * local;
-  };
-  for (std::size_t i = 0; i < locals.size(); ++i) worlds[i] = world(i);
-  return worlds;
+  return all;
 }
 
 }  // namespace rigc::test

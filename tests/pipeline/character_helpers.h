@@ -19,7 +19,9 @@ struct Character {
   std::string bin;
 };
 
-Character load_glb(const std::string& path);
+/// A .glb or .vrm, or a .gltf with all of its buffers joined.
+Character load_character(const std::string& path);
+inline Character load_glb(const std::string& path) { return load_character(path); }
 void save_glb(const Character& character, const std::string& path);
 
 /// A file below the tests' output folder, the folder of the templates that come with rigc, a file's
@@ -39,20 +41,25 @@ math::Affine local_of(const nlohmann::ordered_json& node);
 void set_local(nlohmann::ordered_json& node, const math::Affine& local);
 std::vector<int> parents_of(const nlohmann::ordered_json& json);
 
-/// Turns every joint's own axes by a random rotation; the mesh stays skinned as it was. Clips are
-/// removed.
-Character with_random_axes(Character character, unsigned seed);
-/// Puts scale (or a mirror) above the skeleton and takes it out below, so that the figure looks the
-/// same. Clips are removed.
-Character under_scaled_ancestor(Character character, math::Vec3 scale);
-/// Turns the whole character about Y. Clips are removed.
-Character turned(Character character, double degrees);
+/// What is changed in a copy of a character.
+struct Change {
+  std::string name;
+  unsigned axes_seed = 0;              ///< turns every joint's own axes at random; 0: not
+  math::Vec3 ancestor_scale{1, 1, 1};  ///< above the skeleton, and taken out below
+  double turn_degrees = 0;             ///< of all about Y
+};
 
-/// Worlds of all nodes of a file at a time of a clip, played as glTF says; without a clip as the
-/// nodes stand.
-std::vector<math::Affine> play(const std::string& path, const std::string& clip, double seconds);
+/// A copy of a character's skeletons, without meshes and clips, standing in its bind pose. `binds`:
+/// world matrices of its joints, by node. Every joint stays where it is, but for the turn.
+Character changed(Character character, const std::map<int, math::Affine>& binds,
+                  const Change& change);
 
-/// The file's first skin: nodes by joint name.
-std::map<std::string, int> joints_by_name(const nlohmann::ordered_json& json);
+/// Worlds of all nodes of a file at times of a clip, played as glTF says.
+std::vector<std::vector<math::Affine>> play(const std::string& path, const std::string& clip,
+                                            const std::vector<double>& seconds);
+inline std::vector<math::Affine> play(const std::string& path, const std::string& clip,
+                                      double seconds) {
+  return play(path, clip, std::vector<double>{seconds}).front();
+}
 
 }  // namespace rigc::test

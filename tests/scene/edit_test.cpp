@@ -61,7 +61,7 @@ TEST_CASE("scene edit: undoing commands one by one passes the same scenes backwa
       REQUIRE(consistent(scene));
       REQUIRE(watcher.nodes.size() == scene.size());
     }
-    CHECK(scene.dump() != dumps.back());
+    CHECK(scene.dump() != dumps.front());
     while (!journals.empty()) {
       Edit::undo(scene, journals.back(), &watcher);
       CHECK(journals.back().empty());

@@ -100,6 +100,10 @@ class RandomEdits {
 
   void set(scene::Edit& edit) {
     const scene::Plug to = plug(any());
+    if (to.attribute >= scene::kUserAttributes && random_.chance(30)) {
+      const bool keyable = random_.chance(50);
+      return edit.set_access(to, keyable, random_.chance(50));
+    }
     if (scene_.role(to) != scene::Role::output) edit.set(to, value(*scene_.type(to)));
   }
 

@@ -132,7 +132,7 @@ class Generator {
   void add_command(std::size_t n) {
     Joint& at = any_joint();
     std::string first;  // of two draws in one text
-    switch (random_.below(9)) {
+    switch (random_.below(10)) {
       case 0:
         first = list_of(random_.vector(0.2));
         at.commands.push_back(
@@ -178,6 +178,9 @@ class Generator {
       case 7:
         add_computed(at, n);
         break;
+      case 8:
+        add_access(at, n);
+        break;
       default:
         at.commands.push_back(fmt::format(
             "{{command: proxy_mesh, id: p{}, with: {{joints: [\".\", \"{}[*]\"]}}}}", n, at.local));
@@ -199,6 +202,30 @@ class Generator {
         "{{command: {0}, id: k{1}, with: {{driven: \"./transform#held{1}\", targets: [{2}, {3}], "
         "weights: [{4:.2f}, {5:.2f}]}}}}",
         module, n, first, second, weight, random_.number(0, 1)));
+  }
+
+  /// Limits, locks, layers and sets of the root's controls and of a control of its own.
+  void add_access(Joint& at, std::size_t n) {
+    at.commands.push_back(fmt::format("{{command: control, id: m{}, with: {{drive: off}}}}", n));
+    const std::string own = fmt::format("./control#m{}", n);
+    const double least = random_.number(-60, 0);
+    const double most = random_.number(0, 2);
+    at.commands.push_back(fmt::format(
+        "{{command: limits, id: l{0}, with: {{nodes: [\"{1}\", base/root.offset, .], "
+        "min_rotate_x: {2:.1f}, max_rotate_z: 30, max_translate_y: {3:.2f}, order: {4}}}}}",
+        n, own, least, most, random_.chance(0.5) ? "xyz" : "zxy"));
+    at.commands.push_back(fmt::format(
+        "{{command: lock, id: k{0}, with: {{attributes: [\"{1}@translate.x\", \"{1}@rotate.y\"], "
+        "mode: {2}}}}}",
+        n, own, any(std::vector<std::string>{"lock", "hide", "lock_and_hide"})));
+    const std::string layer = any(std::vector<std::string>{"body", "face"});
+    at.commands.push_back(
+        fmt::format("{{command: display_layer, id: y{0}, with: {{layer: {1}, nodes: [\"{2}\", "
+                    "base/root.world, .], color: {3}, switch_on: base/root.world}}}}",
+                    n, layer, own, layer == "body" ? "red" : "green"));
+    const std::string set = any(std::vector<std::string>{"a", "b", "c"});
+    at.commands.push_back(
+        fmt::format("{{command: control_set, id: g{0}, with: {{set: {1}, parent: all}}}}", n, set));
   }
 
   /// A transform of its own that a formula or a curve moves.

@@ -58,6 +58,7 @@ TEST_CASE("tags dump: every change of content shows") {
       differs([](TaggedSkeleton& s) { s.joints[1].commands[0].with[0].value = Literal::of(1.0); }));
   CHECK(differs([](TaggedSkeleton& s) { s.joints[1].key.ordinal = 2; }));
   CHECK(differs([](TaggedSkeleton& s) { s.joints[1].mirror.opposite = {5, 0}; }));
+  CHECK(differs([](TaggedSkeleton& s) { s.joints[1].template_parent = {5, 0}; }));
   CHECK(differs([](TaggedSkeleton& s) { s.joints[1].ids.label = "other"; }));
   CHECK(differs([](TaggedSkeleton& s) { s.character.unit = 2; }));
 }

@@ -148,6 +148,7 @@ TEST_CASE("templates fit: bones between and beside the matched ones stay as unta
         static_cast<int>(between));
   CHECK(fitted->joints[joint_named(*fitted, "hair")].foreign_node == 901);
   CHECK(report.extra == std::vector<std::string>{"hair"});
+  CHECK(report.twists == std::vector<std::string>{"twist"});
   std::set<JointKey> keys;
   for (const tags::TaggedJoint& joint : fitted->joints) {
     CHECK(joint.name != "attachment");
@@ -221,6 +222,8 @@ TEST_CASE("templates fit: what is missing is an error with the nearest bones") {
   CHECK_FALSE(fit(*c.expanded, model, *c.map, report, c.diagnostics));
   CHECK(numbers(c.diagnostics) == std::vector<int>{343});
   CHECK(c.diagnostics.all()[0].hint.find("LeftForearn") != std::string::npos);
+  CHECK(c.diagnostics.all()[0].hint.find("free below mixamorig:LeftArm: mixamorig:LeftForearn") !=
+        std::string::npos);
   CHECK(report.missing == std::vector<std::string>{"arm_l_elbow"});
 
   Diagnostics second;
@@ -244,14 +247,124 @@ TEST_CASE("templates fit: what is missing is an error with the nearest bones") {
   CHECK(numbers(fourth) == std::vector<int>{350});
 }
 
+TEST_CASE(
+    "templates fit: a required joint that the map calls absent is made in line with its bone") {
+  Case c;
+  for (MapEntry& entry : c.map->entries) {
+    if (entry.label != "wrist" && entry.label != "clavicle") continue;
+    entry.bones.clear();
+    entry.absent = true;
+  }
+  // The left forearm points down and is half as long as the template's: so does what is made.
+  auto model = as_model(*c.placed, {}, [&](const tags::TaggedJoint& joint) -> std::string {
+    const bool gone = joint.ids.label == "wrist" || joint.ids.local.find("hand") == 6;
+    return gone ? "" : c.names(joint);
+  });
+  math::Vec3 shoulder, elbow;
+  for (tags::ForeignJoint& joint : model.joints) {
+    if (joint.name == "mixamorig:LeftArm") shoulder = joint.rest.origin;
+    if (joint.name != "mixamorig:LeftForeArm") continue;
+    elbow = joint.rest.origin = shoulder + math::Vec3{0, -0.14, 0};
+  }
+  FitReport report;
+  const auto fitted = fit(*c.expanded, model, *c.map, report, c.diagnostics);
+  REQUIRE_MESSAGE(fitted, render(c.diagnostics, false));
+  CHECK(report.helpers == std::vector<std::string>{"root", "arm_l_wrist", "arm_r_wrist"});
+  const std::set<std::string> dropped(report.dropped.begin(), report.dropped.end());
+  CHECK(dropped.count("arm_l_clavicle") == 1);
+  const std::size_t wrist = joint_named(*fitted, "arm_l_wrist");
+  CHECK(fitted->joints[wrist].foreign_node == -1);
+  CHECK(fitted->joints[wrist].ids.label == "wrist");
+  CHECK(fitted->joints[static_cast<std::size_t>(fitted->joints[wrist].parent)].name ==
+        "mixamorig:LeftForeArm");
+  const math::Vec3 forearm = fitted->world(wrist).origin - elbow;
+  CHECK(length(forearm) == doctest::Approx(0.125).epsilon(0.02));
+  CHECK(dot(normalised(forearm), math::Vec3{0, -1, 0}) > 0.98);
+}
+
+TEST_CASE("templates fit: twist bones beside the next one are told from other bones") {
+  Case c;
+  auto model = as_model(*c.placed, {}, c.names);
+  int arm = -1;
+  math::Vec3 shoulder, elbow;
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    if (model.joints[i].name == "mixamorig:LeftArm") {
+      arm = static_cast<int>(i);
+      shoulder = model.joints[i].rest.origin;
+    }
+    if (model.joints[i].name == "mixamorig:LeftForeArm") elbow = model.joints[i].rest.origin;
+  }
+  const auto add = [&](const std::string& name, math::Vec3 at) {
+    tags::ForeignJoint bone = model.joints[static_cast<std::size_t>(arm)];
+    bone.name = name;
+    bone.node = 900 + static_cast<int>(model.joints.size());
+    bone.parent = arm;
+    bone.rest.origin = at;
+    model.joints.push_back(bone);
+  };
+  add("twist_01", math::lerp(shoulder, elbow, 0.0));
+  add("twist_02", math::lerp(shoulder, elbow, 0.6));
+  add("sleeve", math::lerp(shoulder, elbow, 0.5) + math::Vec3{0, -0.1, 0});
+  FitReport report;
+  const auto fitted = fit(*c.expanded, model, *c.map, report, c.diagnostics);
+  REQUIRE_MESSAGE(fitted, render(c.diagnostics, false));
+  CHECK(report.twists == std::vector<std::string>{"twist_01", "twist_02"});
+  CHECK(report.extra == std::vector<std::string>{"sleeve"});
+}
+
+TEST_CASE("templates fit: a flat template is measured by its size, and one on end by its line") {
+  Diagnostics diagnostics;
+  const auto expanded = expand_text(
+      "joints:\n"
+      "  - {name: palm, at: [0, 0, 0], local: hand, label: palm}\n"
+      "  - {name: tip, parent: palm, at: [0.1, 0.001, 0], local: hand, label: tip}\n"
+      "  - {name: side, parent: palm, at: [0, 0, 0.05], local: hand, label: side}\n",
+      diagnostics);
+  REQUIRE_MESSAGE(expanded, render(diagnostics, false));
+  const auto placed = place(*expanded, diagnostics);
+  REQUIRE(placed);
+  Map map;
+  map.name = "flat";
+  for (const char* label : {"palm", "tip", "side"}) {
+    MapEntry entry;
+    entry.local = "hand";
+    entry.label = label;
+    entry.bones = {{label}};
+    map.entries.push_back(entry);
+  }
+  const math::Affine ancestor = math::rotation(math::axis_angle({0, 0, 1}, 0.7)) *
+                                math::Affine{{{3, 0, 0}, {0, 3, 0}, {0, 0, 3}}, {1, 2, 3}};
+  const auto name = [](const tags::TaggedJoint& joint) { return joint.ids.label; };
+  auto model = as_model(*placed, {}, name);
+  for (tags::ForeignJoint& joint : model.joints) joint.rest = ancestor * joint.rest;
+  FitReport report;
+  const auto fitted = fit(*expanded, model, map, report, diagnostics);
+  REQUIRE_MESSAGE(fitted, render(diagnostics, false));
+  CHECK(fitted->character.unit == doctest::Approx(3).epsilon(1e-6));
+  CHECK(distance(fitted->character.left,
+                 math::rotate(math::axis_angle({0, 0, 1}, 0.7), {1, 0, 0})) < 1e-9);
+
+  model.joints.pop_back();  // two joints left, on a line
+  Map line = map;
+  line.entries.pop_back();
+  line.entries.push_back({"hand", "side", {}, true, {}});
+  FitReport other;
+  const auto on_line = fit(*expanded, model, line, other, diagnostics);
+  REQUIRE_MESSAGE(on_line, render(diagnostics, false));
+  CHECK(other.helpers == std::vector<std::string>{"side"});
+  CHECK(on_line->character.unit == doctest::Approx(3).epsilon(1e-6));
+}
+
 TEST_CASE("templates fit: asymmetry above two percent, other hierarchies and shear are warnings") {
   Case c;
   auto model = as_model(*c.placed, {}, c.names);
+  model.file = "hero.glb";
   for (tags::ForeignJoint& joint : model.joints)
     if (joint.name == "mixamorig:LeftHand") joint.rest.origin.y -= 0.1;
   FitReport report;
   CHECK(fit(*c.expanded, model, *c.map, report, c.diagnostics));
   CHECK(numbers(c.diagnostics) == std::vector<int>{346});
+  CHECK(c.diagnostics.all()[0].place.file == "hero.glb");
   REQUIRE(report.asymmetry);
   CHECK(report.asymmetry->metres == doctest::Approx(0.1));
 
@@ -280,7 +393,7 @@ TEST_CASE("templates fit: Xbot's bones match, and its character is measured from
     return;
   }
   Case c;
-  const auto map = detect_map(*xbot, {template_folder()}, c.diagnostics);
+  const auto map = detect_map(*c.expanded, *xbot, {template_folder()}, c.diagnostics);
   REQUIRE(map);
   CHECK(map->name == "mixamo");
   FitReport report;

@@ -34,7 +34,7 @@ TEST_CASE("templates map: entries for joints and chains") {
       "requires: [x, [y, z]]\njoints:\n  g.l: A\n  g.m: [B, C]\n  g: [D, [E, F]]\n",
       diagnostics);
   REQUIRE_MESSAGE(map, render(diagnostics, false));
-  CHECK(map->humanoid);
+  CHECK(map->names == Map::Names::humanoid);
   CHECK(map->required.size() == 2);
   CHECK(map->find("g", "l")->bones == std::vector<std::vector<std::string>>{{"A"}});
   CHECK(map->find("g", "m")->bones == std::vector<std::vector<std::string>>{{"B", "C"}});
@@ -74,19 +74,52 @@ TEST_CASE("templates map: names are compared without prefix, suffix and case") {
   CHECK(BoneNames(map, skinned).find("Neck") == 7);
 }
 
-TEST_CASE("templates map: detection needs the required bones and takes the map that finds most") {
-  const Folder folder("map_detect");
-  folder.write("maps/a.yaml", "map: a\nrequires: [Root]\njoints: {g.x: A, g.y: B}\n");
-  folder.write("maps/b.yaml",
-               "map: b\nrequires: [[Pelvis, Root]]\njoints: {g.x: A, g.y: B, g.z: C}\n");
-  folder.write("maps/c.yaml",
-               "map: c\nrequires: [Nothing]\njoints: {g.x: A, g.y: B, g.z: C, g.w: Root}\n");
+TEST_CASE("templates map: a line for both sides stands for one of each") {
   Diagnostics diagnostics;
-  CHECK(detect_map(bones({"Root", "A", "B"}), {folder.path()}, diagnostics)->name == "a");
-  CHECK(detect_map(bones({"Root", "A", "B", "C"}), {folder.path()}, diagnostics)->name == "b");
+  const auto map = read_map_text(
+      "map: m\nsides: {l: Left, r: [Right, R]}\njoints:\n  a_{s}.b: \"{side}Arm\"\n"
+      "  a_{s}: [\"{side}1\", [\"{side}2\", \"2{side}\"]]\n  c.d: Hips\n  c.e: ~\n  f: ~\n",
+      diagnostics);
+  REQUIRE_MESSAGE(map, render(diagnostics, false));
+  using Bones = std::vector<std::vector<std::string>>;
+  CHECK(map->find("a_l", "b")->bones == Bones{{"LeftArm"}});
+  CHECK(map->find("a_r", "b")->bones == Bones{{"RightArm", "RArm"}});
+  CHECK(map->find("a_r", "")->bones == Bones{{"Right1", "R1"}, {"Right2", "R2", "2Right", "2R"}});
+  CHECK(map->find("a_l", "b")->span.line == map->find("a_r", "b")->span.line);
+  CHECK(map->find("c", "d")->bones == Bones{{"Hips"}});
+  CHECK_FALSE(map->find("c", "d")->absent);
+  CHECK(map->find("c", "e")->absent);
+  CHECK(map->find("c", "e")->bones.empty());
+  CHECK(map->find("f", "")->absent);
+}
+
+TEST_CASE("templates map: bad sides, and joints that a map has twice") {
+  const auto codes_of = [](const std::string& rest) {
+    Diagnostics diagnostics;
+    CHECK_FALSE(read_map_text("map: m\n" + rest, diagnostics));
+    return numbers(diagnostics);
+  };
+  const std::string sides = "sides: {l: Left, r: Right}\n";
+  CHECK(codes_of("joints: {\"a_{s}.b\": \"{side}Arm\"}\n") == std::vector<int>{380});
+  CHECK(codes_of(sides + "joints: {\"a_{s}.b\": Arm}\n") == std::vector<int>{380});
+  CHECK(codes_of(sides + "joints: {a.b: \"{side}Arm\"}\n") == std::vector<int>{380});
+  CHECK(codes_of("sides: Left\njoints: {a.b: c}\n") == std::vector<int>{380});
+  CHECK(codes_of("sides: {l: Left, \"1\": Right}\njoints: {a.b: c}\n") == std::vector<int>{380});
+  CHECK(codes_of(sides + "joints: {\"a_{s}.b\": \"{side}A\", a_r.b: B}\n") ==
+        std::vector<int>{381});
+}
+
+TEST_CASE("templates map: a user's own map is told what of it does nothing") {
+  Diagnostics diagnostics;
+  const auto expanded = expand_file(biped_path(), diagnostics);
+  const auto map = read_map_text(
+      "map: m\njoints:\n  torso.hips: Hips\n  torso.hip: Hips\n  spine: [Spine, [Spyne, x]]\n"
+      "  arm_l.wrist: ~\n",
+      diagnostics);
+  REQUIRE(map);
+  check_map(*map, *expanded, bones({"Hips", "Spine"}), diagnostics);
   CHECK(diagnostics.ok());
-  CHECK_FALSE(detect_map(bones({"A", "B", "C"}), {folder.path()}, diagnostics));
-  CHECK(numbers(diagnostics) == std::vector<int>{341});
-  Diagnostics second;
-  CHECK(detect_map(bones({"mixamorig1:Hips"}), {template_folder()}, second)->name == "mixamo");
+  CHECK(numbers(diagnostics) == std::vector<int>{382, 383});
+  CHECK(diagnostics.all()[0].hint == "did you mean \"torso.hips\"?");
+  CHECK(diagnostics.all()[1].hint == "did you mean \"Spine\"?");
 }

@@ -22,6 +22,8 @@ constexpr std::array<KernelRow, static_cast<std::size_t>(Op::count)> kKernels = 
     {Op::aim, "aim", aim, kAny},
     {Op::ik_two_bone, "ik_two_bone", ik_two_bone, 9},
     {Op::ik_chain, "ik_chain", ik_chain, kAny},
+    {Op::limit_vector, "limit_vector", limit_vector, 1},
+    {Op::limit_rotation, "limit_rotation", limit_rotation, 1},
     {Op::remap, "remap", remap, 5},
     {Op::negate, "negate", numbers::negate, 1},
     {Op::logical_not, "not", numbers::logical_not, 1},

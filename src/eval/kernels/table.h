@@ -26,7 +26,9 @@ enum class Op : std::uint8_t {
                 ///< worlds
   ik_chain,     ///< base, goal, pole, twist, translates...; data: count, has_pole, iterations, goal
                 ///< offset, rests -> rotations
-  remap,        ///< input, its range, output's range; data: clamp, count, points -> number
+  limit_vector,    ///< vector; data: LimitSpace -> vector
+  limit_rotation,  ///< rotation; data: LimitSpace -> rotation
+  remap,           ///< input, its range, output's range; data: clamp, count, points -> number
   // Formulas, in the order of scene::FormulaOp from negate on.
   negate,
   logical_not,
@@ -84,11 +86,13 @@ void multiply(const Call& call);
 void gather(const Call& call);
 void from_euler(const Call& call);
 void to_euler(const Call& call);
-// constraint.cpp, aim.cpp, two_bone.cpp, chain.cpp, remap.cpp
+// constraint.cpp, aim.cpp, two_bone.cpp, chain.cpp, limit.cpp, remap.cpp
 void constraint(const Call& call);
 void aim(const Call& call);
 void ik_two_bone(const Call& call);
 void ik_chain(const Call& call);
+void limit_vector(const Call& call);
+void limit_rotation(const Call& call);
 void remap(const Call& call);
 
 }  // namespace rigc::eval

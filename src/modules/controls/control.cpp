@@ -24,7 +24,7 @@ void control(Builder& b) {
   if (b.failed()) return;
   const ControlNodes made = make_control(b, spec);
   if (b.failed() || !with.flag("drive")) return;
-  drive(b, b.joint(), target(b, made.control), spec.translate);
+  drive(b, spec, made.control);
 }
 
 }  // namespace rigc::modules

@@ -8,8 +8,9 @@
 namespace rigc::modules {
 namespace {
 
-/// Turns an eye so that what pointed at its aim at rest keeps pointing at it.
-void aim_eye(Builder& b, NodeId eye, NodeId aim) {
+/// Turns an eye so that what pointed at its aim at rest keeps pointing at it. `head`: what the eye
+/// moves with; invalid: nothing.
+void aim_eye(Builder& b, NodeId eye, NodeId aim, NodeId head) {
   namespace attribute = scene::aim;
   const NodeId node = b.make({.kind = scene::Kind::aim_constraint,
                               .role = "driver",
@@ -25,14 +26,12 @@ void aim_eye(Builder& b, NodeId eye, NodeId aim) {
   b.set({node, attribute::kTargets, 0}, rest(b, aim));
   b.set({node, attribute::kWeights, 0}, 1.0);
   b.connect(world_of(aim), {node, attribute::kTargets, 0});
-  // Up turns with whatever the eye hangs on, so that a rolled head keeps its gaze upright in the
-  // head.
-  const NodeId parent = b.scene()[eye].parent;
-  if (parent.valid()) {
+  // Up turns with the head, so that a rolled head keeps its gaze upright in the head.
+  if (head.valid()) {
     b.set({node, attribute::kUpMode}, 2.0);
     b.set({node, attribute::kUpVector},
-          math::transposed(math::orthonormal(rest(b, parent).linear)) * up);
-    b.connect(world_of(parent), {node, attribute::kUpTarget});
+          math::transposed(math::orthonormal(rest(b, head).linear)) * up);
+    b.connect(world_of(head), {node, attribute::kUpTarget});
   } else {
     b.set({node, attribute::kUpVector}, up);
   }
@@ -62,8 +61,8 @@ void look_at(Builder& b) {
   spec.facing = {0, 0, 1};
   if (b.failed()) return;
   const ControlNodes common = make_control(b, spec);
+  if (b.failed()) return;
   for (NodeId eye : eyes) {
-    if (b.failed()) return;
     spec.joint = eye;
     spec.role = "aim";
     spec.frame.origin = position(b, eye) + ahead;
@@ -74,7 +73,11 @@ void look_at(Builder& b) {
     spec.color = side_color(b, eye, "eye_color");
     spec.rotate = false;
     const ControlNodes own = make_control(b, spec);
-    if (!b.failed()) aim_eye(b, eye, own.control);
+    if (b.failed()) return;
+    const NodeId space = space_of(b, eye);
+    const bool carried = carried_by(b, eye, space);
+    if (!carried && space.valid()) carry(b, eye, space);
+    aim_eye(b, eye, own.control, carried ? b.scene()[eye].parent : space);
   }
 }
 

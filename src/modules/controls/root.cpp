@@ -63,7 +63,7 @@ void root(Builder& b) {
   spec.color = with.vec3("offset_color");
   const ControlNodes offset = make_control(b, spec);
   if (b.failed() || !with.flag("drive")) return;
-  drive(b, b.joint(), target(b, offset.control), true);
+  drive(b, spec, offset.control);
 }
 
 }  // namespace rigc::modules

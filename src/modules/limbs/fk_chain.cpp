@@ -8,8 +8,8 @@ namespace rigc::modules {
 
 void fk_chain(Builder& b) {
   const Parameters& with = b.with();
-  std::vector<NodeId> joints = with.nodes("joints");
-  if (!with.flag("last") && joints.size() > 1) joints.pop_back();
+  const std::vector<NodeId>& joints = with.nodes("joints");
+  const std::size_t count = joints.size() - (!with.flag("last") && joints.size() > 1 ? 1 : 0);
   const std::string& orient = with.text("orient");
   ControlSpec spec;
   spec.role = "fk";
@@ -18,15 +18,16 @@ void fk_chain(Builder& b) {
   spec.size = with.number("size");
   spec.translate = with.flag("translate");
   spec.space = space_from(b, "parent", space_of(b, joints.front()));
-  if (b.failed() || !check_descends(b, joints, "joints")) return;
-  for (NodeId joint : joints) {
-    spec.joint = joint;
-    spec.frame = oriented(b, joint, orient);
-    spec.color = side_color(b, joint, "color");
-    face(b, spec, with.text("axis"), bone_direction(b, joint));
+  if (b.failed() || !check_order(b, joints, "joints")) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    const math::Vec3 direction = chain_direction(b, joints, i);
+    spec.joint = joints[i];
+    spec.frame = oriented(b, spec.joint, orient, direction);
+    spec.color = side_color(b, spec.joint, "color");
+    face(b, spec, with.text("axis"), direction);
     const ControlNodes made = make_control(b, spec);
     if (b.failed()) return;
-    drive(b, joint, target(b, made.control), spec.translate);
+    drive(b, spec, made.control);
     spec.space = made.control;
   }
 }

@@ -15,7 +15,8 @@ namespace transform = scene::transform;
 /// What a limb is made of, start to end.
 struct Limb {
   TwoBone bones;
-  std::array<NodeId, 3> joints;
+  std::vector<NodeId> joints;  ///< three
+  NodeId space;                ///< what the FK chain hangs on
   std::array<NodeId, 3> fk;
   NodeId ik, pole, settings, solver;
   Plug ik_weight, fk_weight;
@@ -34,13 +35,12 @@ ControlSpec look(const Builder& b, NodeId joint, const std::string& part) {
 }
 
 void make_fk(Builder& b, Limb& limb) {
-  NodeId space = space_from(b, "parent", space_of(b, limb.joints[0]));
+  limb.space = space_from(b, "parent", space_of(b, limb.joints[0]));
+  NodeId space = limb.space;
   for (std::size_t i = 0; i < 3 && !b.failed(); ++i) {
     const NodeId joint = limb.joints[i];
     ControlSpec spec = look(b, joint, "fk");
-    const math::Vec3 direction =
-        i < 2 ? math::normalised(position(b, limb.joints[i + 1]) - position(b, joint))
-              : bone_direction(b, joint);
+    const math::Vec3 direction = chain_direction(b, limb.joints, i);
     spec.frame = {bone_frame(b, joint, direction), position(b, joint)};
     spec.axes = AxesFrom::bone;
     face(b, spec, "bone", direction);
@@ -100,8 +100,7 @@ void make_settings(Builder& b, Limb& limb) {
   limb.fk_weight = {rest_of, expression::kOutput};
 }
 
-/// Each joint turns with its FK control and with what IK says, by weight. Lengths stay: nothing is
-/// moved.
+/// Each joint turns with its FK control and with what IK says, by weight.
 void blend(Builder& b, const Limb& limb) {
   namespace constraint = scene::constraint;
   const double ik_fk = b.with().number("ik_fk");
@@ -119,15 +118,14 @@ void blend(Builder& b, const Limb& limb) {
   }
 }
 
-/// A limb that hangs on no joint is carried by what its FK chain hangs on.
-void carry(Builder& b, const Limb& limb) {
-  namespace constraint = scene::constraint;
-  const NodeId start = limb.joints[0];
-  if (b.scene()[start].parent.valid()) return;
-  const NodeId node = make_constraint(b, scene::Kind::parent_constraint, start,
-                                      {target(b, limb.fk[0])}, {}, true, "driver", start);
-  b.connect({node, constraint::kTranslate}, {start, transform::kTranslate});
-  b.connect({node, constraint::kScale}, {start, transform::kScale});
+/// Lengths stay: a joint that the skeleton does not take along (a foot that hangs under the root)
+/// keeps its place seen from the joint before, the first from what the FK chain hangs on.
+void carry_joints(Builder& b, const Limb& limb) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const NodeId before = i == 0 ? limb.space : limb.joints[i - 1];
+    if (carried_by(b, limb.joints[i], before)) continue;
+    carry(b, limb.joints[i], i == 0 ? limb.fk[0] : before);
+  }
 }
 
 }  // namespace
@@ -136,9 +134,8 @@ void ik_fk_limb(Builder& b) {
   const Parameters& with = b.with();
   Limb limb;
   limb.joints = {with.node("start"), with.node("middle"), with.node("end")};
-  chain_between(b, limb.joints[0], limb.joints[1], "middle");
-  chain_between(b, limb.joints[1], limb.joints[2], "end");
-  if (b.failed()) return;
+  if (!check_order(b, {limb.joints[0], limb.joints[1]}, "middle")) return;
+  if (!check_order(b, limb.joints, "end")) return;
   limb.bones =
       measure_two_bone(b, limb.joints[0], limb.joints[1], limb.joints[2], with.text("bend"));
   if (b.failed()) return;
@@ -148,7 +145,7 @@ void ik_fk_limb(Builder& b) {
   if (b.failed()) return;
   limb.solver = make_two_bone(b, limb.bones, limb.ik, limb.pole, 0);
   blend(b, limb);
-  carry(b, limb);
+  carry_joints(b, limb);
 }
 
 }  // namespace rigc::modules

@@ -3,6 +3,8 @@
 // Test: tests/modules/ik_test.cpp
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "modules/codes.h"
 #include "modules/limbs/two_bone.h"
 #include "modules/registry.h"
@@ -12,7 +14,20 @@ namespace {
 
 namespace transform = scene::transform;
 
-void build_two_bone(Builder& b, const std::vector<NodeId>& chain, NodeId handle) {
+/// Without the joints between start and end that no joint of the template stands for: roll and
+/// twist joints of the model. Where the template says nothing about any of them all count.
+std::vector<NodeId> without_riders(const Builder& b, const std::vector<NodeId>& path) {
+  std::vector<NodeId> chain;
+  for (NodeId joint : path) {
+    const Identifiers& ids = b.scene()[joint].ids;
+    const bool tagged = !ids.local.empty() || !ids.label.empty();
+    if (tagged || joint == path.front() || joint == path.back()) chain.push_back(joint);
+  }
+  return chain.size() < 3 ? path : chain;
+}
+
+void build_two_bone(Builder& b, const std::vector<NodeId>& path, NodeId handle) {
+  const std::vector<NodeId> chain = without_riders(b, path);
   if (chain.size() != 3) {
     b.fail(chain.size() < 3 ? codes::kTooFewJoints : codes::kNotAChain, "end",
            fmt::format("the two_bone solver takes three joints, but {} lie from start to end",
@@ -34,6 +49,28 @@ void build_two_bone(Builder& b, const std::vector<NodeId>& chain, NodeId handle)
   }
 }
 
+/// Where each joint is in the space of the one above it, and how it rests there. The solver knows
+/// no scale: places below a scaled joint of the chain are given at the size that they have, as they
+/// rest; the others are live.
+void connect_joints(Builder& b, const std::vector<NodeId>& chain, NodeId solver) {
+  namespace ik = scene::ik_chain;
+  double size = 1;  // of what lies below the joints so far, seen from the chain's base
+  bool scaled = false;
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const auto element = static_cast<std::int32_t>(i);
+    const math::Trs local = b.scene().local(chain[i]);
+    b.set({solver, ik::kTranslates, element}, local.translation * size);
+    if (!scaled) b.connect({chain[i], transform::kTranslate}, {solver, ik::kTranslates, element});
+    b.set({solver, ik::kRests, element}, local.rotation);
+    if (i + 1 == chain.size()) break;
+    b.connect({solver, ik::kRotations, element}, {chain[i], transform::kRotation});
+    scaled = scaled || local.scale != math::Vec3{1, 1, 1};
+    size *= math::cbrt(std::abs(local.scale.x * local.scale.y * local.scale.z));
+  }
+}
+
+/// Every joint on the way takes part, roll joints too: this is the solver for tails and ropes, of
+/// which models have more joints than templates name.
 void build_chain(Builder& b, const std::vector<NodeId>& chain, NodeId handle) {
   namespace ik = scene::ik_chain;
   if (chain.size() < 2) {
@@ -59,15 +96,7 @@ void build_chain(Builder& b, const std::vector<NodeId>& chain, NodeId handle) {
     b.set({solver, ik::kPole}, rest(b, pole));
     b.connect(world_of(pole), {solver, ik::kPole});
   }
-  for (std::size_t i = 0; i < chain.size(); ++i) {
-    const auto element = static_cast<std::int32_t>(i);
-    const math::Trs local = b.scene().local(chain[i]);
-    b.set({solver, ik::kTranslates, element}, local.translation);
-    b.connect({chain[i], transform::kTranslate}, {solver, ik::kTranslates, element});
-    b.set({solver, ik::kRests, element}, local.rotation);
-    if (i + 1 == chain.size()) break;
-    b.connect({solver, ik::kRotations, element}, {chain[i], transform::kRotation});
-  }
+  connect_joints(b, chain, solver);
 }
 
 }  // namespace

@@ -42,10 +42,10 @@ void spine_fk(Builder& b) {
     return;
   }
   const NodeId named = space_from(b, "parent", space_of(b, joints.front()));
-  if (b.failed() || !check_descends(b, joints, "joints")) return;
+  if (b.failed() || !check_order(b, joints, "joints")) return;
   const NodeId space = stand_on(b, named, joints.front());
   ControlSpec spec;
-  spec.facing = {0, 1, 0};
+  face(b, spec, with.text("axis"), {});
   NodeId hips;
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const bool first = i == 0;
@@ -64,8 +64,11 @@ void spine_fk(Builder& b) {
     const ControlNodes made = make_control(b, spec);
     if (b.failed()) return;
     if (first) hips = made.control;
-    if (i == 1) carry_base(b, made.zero, hips);
-    drive(b, joints[i], target(b, made.control), spec.translate);
+    if (i == 1) {
+      carry_base(b, made.zero, hips);
+      spec.space = hips;  // takes the joint along
+    }
+    drive(b, spec, made.control);
     spec.space = made.control;
   }
 }

@@ -13,8 +13,12 @@ namespace {
 using math::Vec3;
 
 constexpr double kBent = 0.0872;  // sine of 5 degrees
-constexpr double kExactlyStraight =
-    1e-7;  // deviation in lengths of the limb below which any plane leaves it unmoved
+/// Deviation in lengths of the limb that is only the rounding of a file's floats: its side says
+/// nothing, and any plane leaves the limb unmoved.
+constexpr double kExactlyStraight = 3e-6;
+/// Cosine between where a nearly straight limb is bent at rest and the side to which it should
+/// bend, above which it keeps its own plane.
+constexpr double kAgrees = 0.5;
 
 /// Deviations from the line, summed over the joints and in lengths of the chain, below which the
 /// chain solver takes it for straight; half of eval's, which sees rounded places.
@@ -39,14 +43,6 @@ Vec3 wanted_bend(const Builder& b, const std::string& bend, Vec3 direction) {
 TwoBone measure_two_bone(Builder& b, NodeId start, NodeId middle, NodeId end,
                          const std::string& bend) {
   TwoBone limb{start, middle, end, {}, 0};
-  if (b.scene()[middle].parent != start || b.scene()[end].parent != middle) {
-    b.fail(
-        codes::kNotAChain, {},
-        fmt::format("a two-bone limb takes three joints that hang directly under one another; {} "
-                    "and {} do not",
-                    traversal::describe(b.scene(), middle), traversal::describe(b.scene(), end)));
-    return limb;
-  }
   const Vec3 p0 = position(b, start), p1 = position(b, middle), p2 = position(b, end);
   const double upper = math::length(p1 - p0), lower = math::length(p2 - p1);
   limb.length = upper + lower;
@@ -62,8 +58,9 @@ TwoBone measure_two_bone(Builder& b, NodeId start, NodeId middle, NodeId end,
   const double sine = math::length(math::cross(p1 - p0, p2 - p1)) / (upper * lower);
   const Vec3 wanted = wanted_bend(b, bend, direction);
   const bool bent = sine >= kBent;
+  const double out = math::length(deviation);
   const bool agrees =
-      math::length(deviation) > kExactlyStraight * limb.length && math::dot(deviation, wanted) > 0;
+      out > kExactlyStraight * limb.length && math::dot(deviation, wanted) > kAgrees * out;
   limb.bend = bent || agrees ? math::normalised(deviation) : wanted;
   return limb;
 }
@@ -91,6 +88,28 @@ NodeId pole_anchor(Builder& b, const TwoBone& limb) {
   hang(b, anchor, space_of(b, limb.start),
        {character_axes(b), pole_position(b, limb, limb.length)});
   return anchor;
+}
+
+/// Where middle and end are, each seen from the joint before it. A joint that hangs right there
+/// gives its live place, so that length changes are honoured; beyond roll and twist joints, which
+/// ride rigidly, and where the skeleton does not carry it, it is where it rests.
+void connect_bones(Builder& b, const TwoBone& limb, NodeId node) {
+  namespace ik2 = scene::ik2;
+  namespace transform = scene::transform;
+  const math::Affine from_start = math::inverse(rest(b, limb.start));
+  if (b.scene()[limb.middle].parent == limb.start) {
+    b.connect({limb.middle, transform::kTranslate}, {node, ik2::kMiddle});
+    b.connect({limb.middle, transform::kScale}, {node, ik2::kMiddleScale});
+  } else {
+    const math::Trs seen = math::decompose(from_start * rest(b, limb.middle));
+    b.set({node, ik2::kMiddle}, seen.translation);
+    b.set({node, ik2::kMiddleScale}, seen.scale);
+  }
+  if (b.scene()[limb.end].parent == limb.middle) {
+    b.connect({limb.end, transform::kTranslate}, {node, ik2::kEnd});
+  } else {
+    b.set({node, ik2::kEnd}, math::inverse(rest(b, limb.middle)) * position(b, limb.end));
+  }
 }
 
 }  // namespace
@@ -122,10 +141,8 @@ NodeId make_two_bone(Builder& b, const TwoBone& limb, NodeId goal, NodeId pole, 
   const Vec3 normal = math::normalised(math::cross(p2 - p0, limb.bend));
   b.connect({limb.start, transform::kParent}, {node, ik2::kBase});
   b.connect({limb.start, transform::kTranslate}, {node, ik2::kStart});
-  b.connect({limb.middle, transform::kTranslate}, {node, ik2::kMiddle});
-  b.connect({limb.end, transform::kTranslate}, {node, ik2::kEnd});
   b.connect({limb.start, transform::kScale}, {node, ik2::kStartScale});
-  b.connect({limb.middle, transform::kScale}, {node, ik2::kMiddleScale});
+  connect_bones(b, limb, node);
   b.set({node, ik2::kGoal}, rest(b, goal));
   b.connect(world_of(goal), {node, ik2::kGoal});
   b.set({node, ik2::kGoalOffset}, math::inverse(rest(b, goal)) * p2);
