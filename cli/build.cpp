@@ -73,7 +73,8 @@ std::string summary_json(const pipeline::Built& built, const std::string& out) {
   w.key("fit")
       .begin_object()
       .member("map", built.fit.map)
-      .member("height_metres", built.fit.height_metres);
+      .member("height_metres", built.fit.height_metres)
+      .member("misfit", built.fit.misfit);
   w.key("matched").begin_array();
   for (const auto& match : built.fit.matched) {
     w.begin_object()

@@ -53,6 +53,8 @@ class Command {
 
 /// --templates and --modules, which most commands take.
 void declare_paths(Options& options, pipeline::Paths& paths);
+/// --modules alone.
+void declare_modules(Options& options, pipeline::Paths& paths);
 
 /// What `build` and `plan` share: template, model, features, groups, how far to run.
 void declare_build(Options& options, pipeline::BuildRequest& request);

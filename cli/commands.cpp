@@ -44,6 +44,10 @@ void declare_paths(Options& options, pipeline::Paths& paths) {
   options.list("--templates", "DIR", paths.templates,
                "Look for templates and parts here first (then RIGC_TEMPLATES, then those that come "
                "with rigc)");
+  declare_modules(options, paths);
+}
+
+void declare_modules(Options& options, pipeline::Paths& paths) {
   options.list("--modules", "DIR", paths.modules,
                "Add module descriptors from here (also: RIGC_MODULES)");
 }

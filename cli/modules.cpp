@@ -18,7 +18,7 @@ class Modules final : public Command {
   }
   void declare(Options& options) override {
     options.positional("NAME", module_, false, "Module to explain");
-    declare_paths(options, paths_);
+    declare_modules(options, paths_);
   }
   void run(Session& session) override {
     const auto text = pipeline::modules(module_, paths_, session.json, session.diagnostics);

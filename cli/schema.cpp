@@ -19,7 +19,7 @@ class Schema final : public Command {
         "NAME", name_, true,
         "template, map or module (a file that declares one) for files of these; RIGC_rig for "
         "the extension of rig files; a module's name for its `with:`");
-    declare_paths(options, paths_);
+    declare_modules(options, paths_);
   }
   void run(Session& session) override {
     const auto text = pipeline::schema(name_, paths_, session.diagnostics);

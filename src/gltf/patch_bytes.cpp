@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which buffer takes a Patch's bytes and where in it they go: into bytes of ours that nothing uses
-// any more, else to the end; free bytes at the end are cut. Test: tests/gltf/patch_test.cpp
+// any more, else to the end; free bytes at the end are cut. Test: tests/lossless/rounds_test.cpp
 #include <algorithm>
 
 #include "base/ids.h"

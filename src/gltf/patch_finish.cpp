@@ -2,6 +2,7 @@
 // Writes a Patch: the JSON text with its changes, and the buffer that holds our bytes, as .glb or
 // .gltf. Test: tests/gltf/patch_test.cpp
 #include <algorithm>
+#include <set>
 
 #include "base/ids.h"
 #include "base/text.h"
@@ -80,6 +81,7 @@ void write_free_views(State& state, const BytePlan& plan) {
 /// output.
 std::vector<std::string> referenced_files(State& state, const BytePlan& plan) {
   std::vector<std::string> names;
+  std::set<std::string> known;
   for (const char* array : {"buffers", "images"}) {
     const ArrayChanges& changes = state.array(array);
     for (std::size_t i = 0; i < changes.original.size(); ++i) {
@@ -88,8 +90,7 @@ std::vector<std::string> referenced_files(State& state, const BytePlan& plan) {
       const auto uri = changes.original[i]["uri"].string();
       if (!uri || is_data_uri(*uri) || is_absolute_uri(*uri)) continue;
       const auto name = percent_decoded(*uri);
-      if (name && std::find(names.begin(), names.end(), *name) == names.end())
-        names.push_back(*name);
+      if (name && known.insert(*name).second) names.push_back(*name);
     }
   }
   return names;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Places that nothing uses: cut at the end of an array, else a minimal valid element marked ours,
-// which the next patch finds and gives out again. Test: tests/gltf/patch_test.cpp
+// which the next patch finds and gives out again. Test: tests/lossless/rounds_test.cpp
 #include "base/text.h"
 #include "gltf/patch_state.h"
 

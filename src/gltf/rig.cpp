@@ -47,24 +47,23 @@ class Given {
   std::vector<std::size_t> before_;
 };
 
-/// Takes a node of the file for each that is to be written, whose texts name one another: joints
-/// and what carries them, one for each group of a proxy, and what strip takes away.
-struct Numbers {
+/// Takes a node of the file for each that is to be written, because their texts name one another:
+/// joints and what carries them, proxies, what strip takes away. Gives the nodes of the proxies.
+std::vector<int> take_numbers(Patch& patch, Rig& rig, const NodePlan& plan,
+                              const std::vector<ProxyGroup>& groups, Given& given) {
   std::vector<int> proxies;
-  Numbers(Patch& patch, Rig& rig, const NodePlan& plan, const std::vector<ProxyGroup>& groups,
-          Given& given) {
-    rig.nodes = plan.foreign;
-    for (const NodeId id : plan.stays) rig.nodes[id.index] = patch.append("nodes", "{}");
-    for (const ProxyGroup& group : groups) {
-      proxies.push_back(patch.append("nodes", "{}"));
-      int& node = rig.nodes[group.mesh.index];
-      if (node < 0) node = proxies.back();
-    }
-    given.move_to(rig.owned.stays);
-    for (const NodeId id : plan.goes) rig.nodes[id.index] = patch.append("nodes", "{}");
-    given.move_to(rig.owned.goes);
+  rig.nodes = plan.foreign;
+  for (const NodeId id : plan.stays) rig.nodes[id.index] = patch.append("nodes", "{}");
+  for (const ProxyGroup& group : groups) {
+    proxies.push_back(patch.append("nodes", "{}"));
+    int& node = rig.nodes[group.mesh.index];
+    if (node < 0) node = proxies.back();
   }
-};
+  given.move_to(rig.owned.stays);
+  for (const NodeId id : plan.goes) rig.nodes[id.index] = patch.append("nodes", "{}");
+  given.move_to(rig.owned.goes);
+  return proxies;
+}
 
 /// Appends meshes and skins of proxies and gives the texts of their nodes; empty where a number is
 /// too large.
@@ -212,7 +211,7 @@ bool write_rig(Patch& patch, Rig& rig, int ancestor, Diagnostics& diagnostics) {
   rig.ancestor = ancestor;
   rig.owned = {};
   Given given(patch);
-  const Numbers numbers(patch, rig, plan, proxies, given);
+  const std::vector<int> numbers = take_numbers(patch, rig, plan, proxies, given);
   const auto proxy_nodes = write_proxies(patch, rig, proxies, diagnostics);
   if (!proxy_nodes) return false;
   given.move_to(rig.owned.stays);
@@ -221,9 +220,9 @@ bool write_rig(Patch& patch, Rig& rig, int ancestor, Diagnostics& diagnostics) {
   write_nodes(patch, rig, plan, meshes);
   const std::vector<int> scenes = scenes_of(patch.file(), plan);
   for (std::size_t i = 0; i < proxies.size(); ++i) {
-    patch.replace("nodes", numbers.proxies[i], (*proxy_nodes)[i]);
+    patch.replace("nodes", numbers[i], (*proxy_nodes)[i]);
     // Under a parent, validators warn: the transform of a skinned mesh's node is ignored.
-    add_roots(patch, scenes, numbers.proxies[i]);
+    add_roots(patch, scenes, numbers[i]);
   }
   join_to_model(patch, rig, plan, scenes);
   patch.set_root_extension("RIGC_rig", extension_text(patch, rig, diagnostics.sources()));

@@ -40,7 +40,7 @@ inline constexpr Code kRigValue{
     708, Severity::error, "value does not fit in RIGC_rig",
     "The value of an attribute has another type, or another count of numbers, than its kind says."};
 inline constexpr Code kRigTooLarge{709, Severity::error, "rig is too large",
-                                   "A rig has at most 32,768 joints, 32,768 nodes and 32,768 "
+                                   "A rig has at most 16,384 joints, 32,768 nodes and 32,768 "
                                    "commands, a file at most 1,024 rigs."};
 
 // Rigs in nodes.

@@ -13,7 +13,7 @@ namespace rigc::gltf {
 
 inline constexpr int kRigVersionNumber = 1;
 inline constexpr std::size_t kMostRigs = 1024;
-inline constexpr std::size_t kMostJoints = 32768;
+inline constexpr std::size_t kMostJoints = 16384;
 inline constexpr std::size_t kMostNodes = 32768;  ///< of a rig, and of all rigs of a file
 inline constexpr std::size_t kMostDepth = 1024;
 inline constexpr std::size_t kMostElements = 4096;  ///< of an array attribute

@@ -13,6 +13,8 @@
 #include "gltf/bones.h"
 #include "gltf/clips.h"
 #include "gltf/codes.h"
+#include "gltf/rig_codes.h"
+#include "gltf/rig_json.h"
 #include "gltf/slim.h"
 
 namespace rigc::gltf {
@@ -117,11 +119,12 @@ bool is_finite(const Affine& a) {
 /// Scale 0 above a skeleton, or its inverse, has no meaning for the rig that would lie in it.
 void check_rests(const File& file, const tags::ForeignSkeleton& skeleton,
                  Diagnostics& diagnostics) {
-  if (skeleton.ancestor >= 0 &&
-      !(std::abs(math::determinant(skeleton.ancestor_world.linear)) > kFlat)) {
+  const double size = std::abs(math::determinant(skeleton.ancestor_world.linear));
+  if (!(size > kFlat && std::isfinite(size))) {
     diagnostics.report(
         codes::kRestUndefined, Place(file.path, fmt::format("/nodes/{}", skeleton.ancestor)),
-        fmt::format("node {}, which the skeleton hangs under, has scale 0", skeleton.ancestor));
+        fmt::format("node {}, which the skeleton hangs under, is scaled {}", skeleton.ancestor,
+                    size > 1 ? "beyond all numbers" : "to nothing"));
     return;
   }
   for (const tags::ForeignJoint& joint : skeleton.joints) {
@@ -151,6 +154,13 @@ std::optional<std::vector<tags::ForeignSkeleton>> read_skeletons(const File& fil
   const BindContext context = bind_context(*slim);
   std::vector<tags::ForeignSkeleton> result;
   for (const Bones& bones : find_bones(*slim, humanoid)) {
+    if (bones.nodes.size() > kMostJoints) {
+      diagnostics.report(codes::kRigTooLarge,
+                         Place(file.path, fmt::format("/nodes/{}", bones.nodes.front())),
+                         fmt::format("the skeleton has {} nodes; at most {} are rigged",
+                                     bones.nodes.size(), kMostJoints));
+      continue;
+    }
     std::vector<std::string> notes;
     std::map<int, Affine> placed;
     if (rest == "bind") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counts who uses accessors and buffer views. Test: tests/gltf/clips_test.cpp
+// Counts who uses accessors and buffer views. Test: tests/lossless/bake_test.cpp
 #include "gltf/uses.h"
 
 #include "base/text.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Who uses accessors and buffer views of a file: what nobody uses any more is released.
-// Test: tests/gltf/clips_test.cpp
+// Test: tests/lossless/bake_test.cpp
 #pragma once
 
 #include <set>

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "base/text.h"
-#include "templates/map.h"
 
 namespace rigc::templates {
 namespace {
@@ -35,15 +34,15 @@ std::optional<std::size_t> fits_begin(std::string_view text, std::string_view pa
 std::string reversed(std::string_view text) { return {text.rbegin(), text.rend()}; }
 
 /// A bone's name without the first prefix and the first suffix that fit; never empty.
-std::string stripped(const Map& map, const std::string& name) {
+std::string stripped(const NameRules& rules, const std::string& name) {
   std::string out = name;
-  for (const std::string& prefix : map.prefixes) {
+  for (const std::string& prefix : rules.prefixes) {
     const auto length = fits_begin(lower(out), lower(prefix));
     if (!length || *length >= out.size()) continue;
     out.erase(0, *length);
     break;
   }
-  for (const std::string& suffix : map.suffixes) {
+  for (const std::string& suffix : rules.suffixes) {
     const auto length = fits_begin(lower(reversed(out)), lower(reversed(suffix)));
     if (!length || *length >= out.size()) continue;
     out.resize(out.size() - *length);
@@ -89,10 +88,10 @@ void remove_phrase(std::vector<std::string>& words, const std::vector<std::strin
 }
 
 /// The side that a word of the name says; that word is removed.
-std::string take_side(const Map& map, std::vector<std::string>& words) {
+std::string take_side(const NameRules& rules, std::vector<std::string>& words) {
   if (words.size() < 2) return {};
   for (auto word = words.begin(); word != words.end(); ++word)
-    for (const MapSide& side : map.sides)
+    for (const MapSide& side : rules.sides)
       for (const std::string& says : side.words)
         if (lower(says) == *word) {
           words.erase(word);
@@ -150,11 +149,11 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
-NameKey key_of(const Map& map, std::string_view name) {
+NameKey key_of(const NameRules& rules, std::string_view name) {
   NameKey key;
   std::vector<std::string> words = words_of(name);
-  for (const std::vector<std::string>& phrase : map.ignored) remove_phrase(words, phrase);
-  key.side = take_side(map, words);
+  for (const std::vector<std::string>& phrase : rules.ignored) remove_phrase(words, phrase);
+  key.side = take_side(rules, words);
   key.exact = joined(key.side, words);
   for (std::string& word : words) word = normal_number(word);
   key.text = joined(key.side, words);
@@ -173,62 +172,56 @@ bool fits_pattern(std::string_view name, std::string_view pattern) {
   return fits_begin(lower(name), lower(pattern)) == name.size();
 }
 
-BoneNames::BoneNames(const Map& map, const tags::ForeignSkeleton& skeleton)
-    : map_(map), skeleton_(skeleton) {
+BoneNames::BoneNames(const NameRules& rules, const tags::ForeignSkeleton& skeleton)
+    : rules_(rules) {
+  const bool words = rules.names == NameRules::Names::words;
+  for (const tags::ForeignJoint& joint : skeleton.joints) nodes_.push_back(joint.node);
   const auto add = [&](const std::string& name, std::size_t joint) {
     if (name.empty()) return;
-    Bone bone{lower(name), name, name, static_cast<int>(joint)};
-    if (map.names == Map::Names::words) {
-      NameKey key = key_of(map, name);
+    Bone bone{lower(name), name, name, static_cast<int>(joint), skeleton.joints[joint].in_skin};
+    if (words) {
+      NameKey key = key_of(rules, name);
       bone.folded = std::move(key.text);
       bone.exact = std::move(key.exact);
     }
     sorted_.push_back(std::move(bone));
   };
-  if (map.names == Map::Names::humanoid) {
+  if (rules.names == NameRules::Names::humanoid) {
     for (const auto& [bone, joint] : skeleton.humanoid) add(bone, static_cast<std::size_t>(joint));
   } else {
-    const bool words = map.names == Map::Names::words;
     const bool serials = words && has_serials(skeleton);
     for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
-      std::string name = stripped(map, skeleton.joints[i].name);
+      std::string name = stripped(rules, skeleton.joints[i].name);
       if (serials) name.resize(serial_begin(name));
       const std::size_t space = words ? name.find_last_of(":|") : std::string::npos;
       if (space != std::string::npos && space + 1 < name.size()) name.erase(0, space + 1);
       add(name, i);
     }
   }
-  const auto rank = [&](const Bone& bone) {
-    return skeleton.joints[static_cast<std::size_t>(bone.joint)].in_skin ? 0 : 1;
-  };
-  std::sort(sorted_.begin(), sorted_.end(), [&](const Bone& a, const Bone& b) {
+  std::sort(sorted_.begin(), sorted_.end(), [](const Bone& a, const Bone& b) {
     if (a.folded != b.folded) return a.folded < b.folded;
-    return rank(a) != rank(b) ? rank(a) < rank(b) : a.joint < b.joint;
+    return a.in_skin != b.in_skin ? a.in_skin : a.joint < b.joint;
   });
 }
 
 int BoneNames::find(std::string_view bone) const {
   if (const auto node = node_reference(bone)) {
-    for (std::size_t i = 0; i < skeleton_.joints.size(); ++i)
-      if (skeleton_.joints[i].node == *node) return static_cast<int>(i);
-    return -1;
+    const auto at = std::find(nodes_.begin(), nodes_.end(), *node);
+    return at == nodes_.end() ? -1 : static_cast<int>(at - nodes_.begin());
   }
-  std::string wanted = lower(bone), exact(bone);
-  if (map_.names == Map::Names::words) {
-    NameKey key = key_of(map_, bone);
-    wanted = std::move(key.text);
-    exact = std::move(key.exact);
+  Bone wanted{lower(bone), std::string(bone), {}, -1, false};
+  if (rules_.names == NameRules::Names::words) {
+    NameKey key = key_of(rules_, bone);
+    wanted.folded = std::move(key.text);
+    wanted.exact = std::move(key.exact);
   }
-  const auto range =
-      std::equal_range(sorted_.begin(), sorted_.end(), Bone{wanted, {}, {}, -1},
+  const auto [first, last] =
+      std::equal_range(sorted_.begin(), sorted_.end(), wanted,
                        [](const Bone& a, const Bone& b) { return a.folded < b.folded; });
-  const auto first = range.first, last = range.second;
   if (first == last) return -1;
-  const auto in_skin = [&](const Bone& found) {
-    return skeleton_.joints[static_cast<std::size_t>(found.joint)].in_skin;
-  };
+  wanted.in_skin = first->in_skin;
   const auto same = std::find_if(first, last, [&](const Bone& found) {
-    return found.exact == exact && in_skin(found) == in_skin(*first);
+    return found.exact == wanted.exact && found.in_skin == wanted.in_skin;
   });
   return (same != last ? same : first)->joint;
 }

@@ -12,7 +12,25 @@
 
 namespace rigc::templates {
 
-struct Map;
+/// What `{s}` in a key of a map and `{side}` in a bone's name stand for.
+struct MapSide {
+  std::string key;                 ///< in the template's groups: `l`
+  std::vector<std::string> words;  ///< in the model's names: `Left`
+};
+
+/// How a map compares the names of bones.
+struct NameRules {
+  enum class Names {
+    bones,     ///< without case, prefix and suffix
+    words,     ///< word by word
+    humanoid,  ///< the names of the VRM humanoid table; those of nodes are never read
+  };
+  Names names = Names::bones;
+  std::vector<std::string> prefixes;  ///< cut from bone names; `#` stands for any digits, or none
+  std::vector<std::string> suffixes;
+  std::vector<std::vector<std::string>> ignored;  ///< phrases that say nothing, as words_of()
+  std::vector<MapSide> sides;
+};
 
 /// ASCII letters in lower case.
 std::string lower(std::string_view text);
@@ -31,7 +49,7 @@ struct NameKey {
   std::string text;                ///< side and words, as compared
   std::string exact;  ///< the same with numbers as written: decides between Finger1 and Finger01
 };
-NameKey key_of(const Map& map, std::string_view name);
+NameKey key_of(const NameRules& rules, std::string_view name);
 
 /// A reference to a bone by its glTF node, `/nodes/12`: for bones without a usable name.
 std::optional<int> node_reference(std::string_view bone);
@@ -42,7 +60,7 @@ bool fits_pattern(std::string_view name, std::string_view pattern);
 /// Bones of a skeleton by the names that a map uses.
 class BoneNames {
  public:
-  BoneNames(const Map& map, const tags::ForeignSkeleton& skeleton);
+  BoneNames(const NameRules& rules, const tags::ForeignSkeleton& skeleton);
   /// Index into ForeignSkeleton::joints; -1: none. Of several: those in a skin, of these the one
   /// written exactly so, else the first.
   int find(std::string_view bone) const;
@@ -55,10 +73,11 @@ class BoneNames {
     std::string exact;   ///< the same with case, or numbers, as written
     std::string name;
     int joint;
+    bool in_skin;
   };
-  const Map& map_;
-  const tags::ForeignSkeleton& skeleton_;
+  NameRules rules_;
   std::vector<Bone> sorted_;
+  std::vector<int> nodes_;  ///< glTF nodes of the joints
 };
 
 }  // namespace rigc::templates

@@ -178,6 +178,11 @@ inline constexpr Code kSheared{348, Severity::warning, "rest pose is sheared",
                                "Scales that differ by axis above a turned joint shear it. A "
                                "joint's rest has no shear; what is left out is "
                                "stated."};
+inline constexpr Code kBuiltOtherwise{
+    349, Severity::warning, "model is built otherwise than the template",
+    "No turn and no size of the template comes near to where the matched joints are: the model may "
+    "be "
+    "another kind of creature, or the map names the wrong bones. The rig is built as asked."};
 inline constexpr Code kBadModel{350, Severity::error, "skeleton is malformed",
                                 "The skeleton's joints do not form a forest."};
 
@@ -252,6 +257,7 @@ inline constexpr const Code* kTemplatesCodes[] = {&kUnknownFormat,
                                                   &kAsymmetric,
                                                   &kHierarchyDiffers,
                                                   &kSheared,
+                                                  &kBuiltOtherwise,
                                                   &kBadModel,
                                                   &kBadSides,
                                                   &kMapEntryTwice,

@@ -33,7 +33,8 @@ struct FitReport {
   std::vector<std::string> missing;    ///< required joints that the model lacks: errors
   std::vector<std::string> extra;      ///< bones that no joint of the template stands for
   std::optional<Asymmetry> asymmetry;  ///< the largest
-  double height_metres = 0;            ///< extent of the matched joints in world space
+  double misfit = 0;  ///< how differently the model is built: 0 as the template, 1 not at all so
+  double height_metres = 0;  ///< extent of the matched joints in world space
 };
 
 std::optional<tags::TaggedSkeleton> fit(const Expanded& expanded,

@@ -19,11 +19,14 @@ using math::Vec3;
 constexpr double kSnapLeft = 0.9994;  // cosine of 2 degrees: left is measured well, from pairs
 constexpr double kSnapUp = 0.9659;    // of 15 degrees: a spine leans
 constexpr double kMostAsymmetry = 0.02;
+constexpr double kMostMisfit = 0.65;     // Fox as a biped: 0.78; posed humanoids: up to 0.56
+constexpr std::size_t kLeastJoints = 6;  // to tell one build from another
 
 struct Sample {
   Vec3 own;  ///< in the template, metres
   Vec3 rig;  ///< in the model's rig space
   Vec3 world;
+  bool required = false;  ///< of a joint that every such character has
 };
 
 std::vector<Sample> samples_of(const Expanded& expanded, const tags::TaggedSkeleton& placed,
@@ -35,15 +38,17 @@ std::vector<Sample> samples_of(const Expanded& expanded, const tags::TaggedSkele
     if (!fresh) found->second.second = i;
   }
   std::vector<Sample> samples;
-  const auto add = [&](std::size_t joint, int bone) {
+  const auto add = [&](std::size_t joint, int bone, bool required) {
     const Vec3 rig = model.joints[static_cast<std::size_t>(bone)].rest.origin;
-    samples.push_back({placed_worlds[joint].origin, rig, model.ancestor_world * rig});
+    samples.push_back({placed_worlds[joint].origin, rig, model.ancestor_world * rig, required});
   };
   for (std::size_t i = 0; i < expanded.joints.size(); ++i) {
     if (!matching.has(i)) continue;
     const auto [first, last] = range.at(expanded.joints[i].tagged.key.uid);
-    add(first, matching.bones[i].front());
-    if (matching.bones[i].size() > 1 && last != first) add(last, matching.bones[i].back());
+    const bool required = !expanded.joints[i].tagged.optional;
+    add(first, matching.bones[i].front(), required);
+    if (matching.bones[i].size() > 1 && last != first)
+      add(last, matching.bones[i].back(), required);
   }
   return samples;
 }
@@ -79,6 +84,22 @@ math::Mat3 turn_of(const std::vector<Sample>& samples) {
   if (const auto rotation = math::fit_rotation(correlation)) return math::matrix(*rotation);
   if (!(length(own_line) > 1e-12) || !(length(world_line) > 1e-12)) return {};
   return math::matrix(math::between(normalised(own_line), normalised(world_line)));
+}
+
+/// How much of the required joints' spread no turn and scale of the template explains, 0 to 1.
+double misfit_of(std::vector<Sample> samples) {
+  std::erase_if(samples, [](const Sample& sample) { return !sample.required; });
+  if (samples.size() < kLeastJoints) return 0;
+  const math::Mat3 turn = turn_of(samples);
+  const auto [own_mean, world_mean] = means(samples);
+  double own = 0, world = 0, both = 0;
+  for (const Sample& sample : samples) {
+    const Vec3 a = turn * (sample.own - own_mean), b = sample.world - world_mean;
+    own += dot(a, a);
+    world += dot(b, b);
+    both += dot(a, b);
+  }
+  return own > 0 && world > 0 ? math::sqrt(1 - both * both / (own * world)) : 1;
 }
 
 Vec3 snapped(Vec3 direction, double cosine) {
@@ -203,6 +224,13 @@ Measured measure(const Expanded& expanded, const tags::TaggedSkeleton& placed,
   const double rig_height = rig.second - rig.first;
   out.character.unit = unit_of(samples, own_height, rig_height, length(to_rig * up));
   out.character.height = rig_height > 0 ? rig_height : out.character.unit;
+  report.misfit = misfit_of(samples);
+  if (report.misfit > kMostMisfit)
+    diagnostics.report(codes::kBuiltOtherwise, Place(model.file),
+                       fmt::format("even best turned and scaled, the template leaves {:.0f} % of "
+                                   "how the joints are spread",
+                                   report.misfit * 100),
+                       "is it the right template for this creature, and the right map?");
   check_symmetry(expanded, model, matching, left, report, diagnostics);
   return out;
 }

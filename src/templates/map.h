@@ -24,26 +24,9 @@ struct MapEntry {
   Span span;
 };
 
-/// What `{s}` in a key and `{side}` in a bone's name stand for.
-struct MapSide {
-  std::string key;                 ///< in the template's groups: `l`
-  std::vector<std::string> words;  ///< in the model's names: `Left`
-};
-
-struct Map {
-  /// How the names of bones are compared.
-  enum class Names {
-    bones,     ///< without case, prefix and suffix
-    words,     ///< word by word
-    humanoid,  ///< the names of the VRM humanoid table; those of nodes are never read
-  };
+struct Map : NameRules {
   std::string name;
   std::string title;
-  Names names = Names::bones;
-  std::vector<std::string> prefixes;  ///< cut from bone names; `#` stands for any digits, or none
-  std::vector<std::string> suffixes;
-  std::vector<std::vector<std::string>> ignored;  ///< phrases that say nothing, as words_of()
-  std::vector<MapSide> sides;
   /// For detection: of each of these lists one bone must be there, prefix and all; `#` as above.
   std::vector<std::vector<std::string>> required;
   std::vector<MapEntry> entries;

@@ -19,7 +19,7 @@ constexpr int kMostSkips = 3;       // bones or joints passed over in a row
 constexpr double kNamed = 0.14;     // names that speak for a joint by more than its side
 constexpr double kNever = -1e9;
 constexpr double kAxesMargin = 0.02;  // other axes than glTF's own must be clearly better
-constexpr std::size_t kManyBones = 2000;
+constexpr std::size_t kManyBones = 500;
 
 std::vector<std::vector<int>> children_of(const std::vector<AlignNode>& nodes) {
   std::vector<std::vector<int>> children(nodes.size());

@@ -80,6 +80,15 @@ TEST_CASE("hostile counts: elements") {
   }
 }
 
+TEST_CASE("hostile counts: what a build has to go through") {
+  const auto folder = broken_folder("build_counts");
+  Victim victim = small_victim();
+  auto& nodes = victim.json["nodes"];
+  for (std::size_t i = 0; i < 20'000; ++i) nodes[1]["children"].push_back(nodes.size() + i);
+  for (std::size_t i = 0; i < 20'000; ++i) nodes.push_back({{"name", "bone"}});
+  expect({"bones", {"/asset/copyright", "\"\""}, 709, "/nodes/0", Ask::build}, victim, folder);
+}
+
 TEST_CASE("hostile counts: hierarchies as deep as they are long are read") {
   const auto folder = broken_folder("deep_hierarchy");
   std::string nodes = "{}";

@@ -26,6 +26,8 @@ constexpr bool kSanitized = __has_feature(address_sanitizer);
 constexpr bool kSanitized = false;
 #endif
 
+constexpr std::size_t kLongestWord = 40;
+
 /// What stands for a value until the text is written.
 constexpr const char* kMark = "@CHANGED@";
 
@@ -170,7 +172,8 @@ std::vector<std::string> arguments_for(Ask ask, const std::string& file) {
 
 std::string Victim::expand(std::string text) const {
   for (std::size_t at = text.find('{'); at != std::string::npos; at = text.find('{', at + 1)) {
-    const auto word = words.find(text.substr(at + 1, text.find('}', at) - at - 1));
+    const std::string start = text.substr(at + 1, kLongestWord);
+    const auto word = words.find(start.substr(0, start.find('}')));
     if (word != words.end()) text.replace(at, word->first.size() + 2, word->second);
   }
   return text;

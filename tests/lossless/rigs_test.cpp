@@ -8,6 +8,8 @@
 #include "gltf/file_helpers.h"
 #include "gltf/rig_helpers.h"
 #include "lossless_helpers.h"
+#include "pipeline/build.h"
+#include "support/corpus.h"
 
 using namespace rigc;
 using namespace rigc::test::lossless;
@@ -66,6 +68,31 @@ TEST_CASE("lossless rigs: a rig in and out of random mutations of every file") {
   std::mt19937_64 random(2);
   for (const Sample& sample : all_samples("broken/mutations"))
     for (int i = 0; i < 4; ++i) in_and_out(mutated(sample, random), random);
+}
+
+TEST_CASE("lossless rigs: the biped onto every humanoid and off again") {
+  const std::vector<Sample> samples = corpus_samples(folder("humanoids"));
+  for (const rigc::test::Humanoid& humanoid : rigc::test::humanoids()) {
+    for (const Sample& sample : samples) {
+      if (!humanoid.file.starts_with(sample.name + "/")) continue;
+      CAPTURE(humanoid.file);
+      Diagnostics diagnostics;
+      pipeline::BuildRequest request;
+      request.template_file = std::string(RIGC_SOURCE_DIR) + "/templates/biped.yaml";
+      request.paths.templates = {std::string(RIGC_SOURCE_DIR) + "/templates"};
+      request.model = sample.path;
+      request.map = rigc::test::user_map(humanoid);
+      const bool text = sample.path.ends_with(".gltf");
+      const std::string out = folder_of(sample.path) + (text ? "/rigged.gltf" : "/rigged.glb");
+      const auto built = pipeline::build(request, out, diagnostics);
+      REQUIRE_MESSAGE(built, render(diagnostics, false));
+      gltf::test::allow_messages_of(out, sample.path);
+      const auto file = gltf::open(out, diagnostics);
+      REQUIRE(file);
+      expect_kept(opened(sample), *file, built->rig);
+      CHECK(stripped({sample.name, out, gltf::test::text(file->whole)}).bytes == sample.bytes);
+    }
+  }
 }
 
 TEST_CASE("lossless rigs: several rigs in one file go in any order") {

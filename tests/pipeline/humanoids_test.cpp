@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 
 #include "base/files.h"
 #include "gltf/rig.h"
@@ -44,21 +45,19 @@ std::string changed_xbot(const std::string& name, Change change) {
   return path;
 }
 
-/// How far the knees stand before the lines from hips to ankles.
-double knees_forward(const tags::TaggedSkeleton& skeleton) {
+/// How far the knees stand before the lines from hips to ankles, and the balls before the ankles.
+double legs_forward(const tags::TaggedSkeleton& skeleton) {
   double sum = 0;
   for (const char* leg : {"leg_l", "leg_r"}) {
-    math::Vec3 at[3];
-    for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
-      const Identifiers& ids = skeleton.joints[i].ids;
-      if (ids.local != leg) continue;
-      for (std::size_t k = 0; k < 3; ++k)
-        if (ids.label == std::vector<std::string>{"hip", "knee", "ankle"}[k])
-          at[k] = skeleton.world(i).origin;
-    }
-    const math::Vec3 line = at[2] - at[0];
-    const double share = dot(at[1] - at[0], line) / dot(line, line);
-    sum += dot(at[1] - at[0] - line * share, skeleton.character.forward);
+    std::map<std::string, math::Vec3> at;
+    for (std::size_t i = 0; i < skeleton.joints.size(); ++i)
+      if (skeleton.joints[i].ids.local == leg)
+        at[skeleton.joints[i].ids.label] = skeleton.world(i).origin;
+    const math::Vec3 line = at["ankle"] - at["hip"];
+    const math::Vec3 knee = at["knee"] - at["hip"];
+    const double share = dot(knee, line) / dot(line, line);
+    sum += dot(knee - line * share, skeleton.character.forward);
+    if (at.count("ball")) sum += dot(at["ball"] - at["ankle"], skeleton.character.forward);
   }
   return sum;
 }
@@ -92,7 +91,7 @@ TEST_CASE("pipeline humanoids: every one of the corpus gets the biped by its map
     CHECK(built->fit.matched.size() == humanoid.matched);
     CHECK(built->fit.missing.empty());
     CHECK(built->skipped == 0);
-    CHECK_MESSAGE(knees_forward(built->rig.skeleton) > 0, "sides or facing are wrong");
+    CHECK_MESSAGE(legs_forward(built->rig.skeleton) > 0, "sides or facing are wrong");
   }
 }
 

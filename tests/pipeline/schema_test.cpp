@@ -14,18 +14,18 @@
 namespace rigc {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
-json schema_of(const std::string& name, const pipeline::Paths& paths = {}) {
+Json schema_of(const std::string& name, const pipeline::Paths& paths = {}) {
   Diagnostics diagnostics;
   const auto text = pipeline::schema(name, paths, diagnostics);
   REQUIRE_MESSAGE(text, render(diagnostics, false));
-  return json::parse(*text);
+  return Json::parse(*text);
 }
 
 /// Calls `visit` with each object under a key `properties`, with the key's path.
 template <class Visit>
-void each_property(const json& schema, const std::string& path, Visit visit) {
+void each_property(const Json& schema, const std::string& path, Visit visit) {
   if (!schema.is_structured()) return;
   for (const auto& [key, value] : schema.items()) {
     const std::string at = path + "/" + key;
@@ -61,10 +61,10 @@ pipeline::Paths user_modules() {
 
 TEST_CASE("pipeline schema: everything that a template can say is explained") {
   for (const char* name : {"template", "map", "module"}) {
-    const json schema = schema_of(name);
+    const Json schema = schema_of(name);
     CHECK(schema["$schema"] == "http://json-schema.org/draft-07/schema#");
     std::size_t count = 0;
-    each_property(schema, "", [&](const std::string& path, const json& property) {
+    each_property(schema, "", [&](const std::string& path, const Json& property) {
       // Conditions and their consequences say nothing that is not said elsewhere.
       if (path.find("/if/") != std::string::npos || path.find("/then/") != std::string::npos)
         return;
@@ -78,14 +78,14 @@ TEST_CASE("pipeline schema: everything that a template can say is explained") {
 }
 
 TEST_CASE("pipeline schema: references lead somewhere") {
-  const json schema = schema_of("template");
+  const Json schema = schema_of("template");
   std::size_t count = 0;
-  const auto visit = [&](const auto& self, const json& node) -> void {
+  const auto visit = [&](const auto& self, const Json& node) -> void {
     if (!node.is_structured()) return;
     if (node.is_object() && node.contains("$ref")) {
       const std::string target = node["$ref"];
       INFO(target);
-      CHECK(schema.contains(json::json_pointer(target.substr(1))));
+      CHECK(schema.contains(Json::json_pointer(target.substr(1))));
       ++count;
     }
     for (const auto& [key, value] : node.items()) self(self, value);
@@ -95,11 +95,11 @@ TEST_CASE("pipeline schema: references lead somewhere") {
 }
 
 TEST_CASE("pipeline schema: modules of a user's folder") {
-  const json schema = schema_of("template", user_modules());
-  const json& names = schema["definitions"]["command"]["properties"]["command"]["enum"];
+  const Json schema = schema_of("template", user_modules());
+  const Json& names = schema["definitions"]["command"]["properties"]["command"]["enum"];
   CHECK(std::count(names.begin(), names.end(), "bounce") == 1);
   CHECK(schema["properties"]["modules"]["properties"]["bounce"]["maximum"] == 3);
-  const json& with = schema["definitions"]["with_bounce"];
+  const Json& with = schema["definitions"]["with_bounce"];
   // A template in centimetres may say -100 to 200.
   CHECK(with["properties"]["height"]["minimum"] == -100);
   CHECK(with["properties"]["height"]["maximum"] == 200);
