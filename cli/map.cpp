@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// rigc map: a first guess at a model's map. Test: tests/cli/cli_test.cpp
+// rigc map: a first guess at a model's map. Test: tests/cli/map_test.cpp
 #include "pipeline/map.h"
 
 #include <fmt/format.h>

@@ -59,9 +59,9 @@ std::string bytes_of(const File& file, const json::Value& accessor) {
   const json::Value view =
       file.root()["bufferViews"]
           .items()[static_cast<std::size_t>(*accessor["bufferView"].integer())];
-  return text(file.buffers[0].bytes.part(
-      static_cast<std::size_t>(view["byteOffset"].integer().value_or(0)),
-      static_cast<std::size_t>(*view["byteLength"].integer())));
+  return text(
+      file.buffers[0].bytes.part(static_cast<std::size_t>(view["byteOffset"].integer().value_or(0)),
+                                 static_cast<std::size_t>(*view["byteLength"].integer())));
 }
 
 std::vector<float> floats_of(const File& file, const json::Value& accessor) {

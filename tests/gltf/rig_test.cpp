@@ -186,7 +186,7 @@ TEST_CASE("gltf rig: random scenes come back from their files") {
     rig.skeleton.global = "random";
     rig.commands.push_back({{}, "joint", "id", "module", true, "", 0});
     scene::Journal journal;
-    rigc::test::RandomEdits(rig.scene, seed).run(journal, nullptr, 200, 0);
+    rigc::test::RandomEdits(rig.scene, seed, true).run(journal, nullptr, 200, 0);
     const std::string before = rig.scene.dump();
     const File file = written(empty_file(), rig, "rig_random_" + std::to_string(seed));
     CHECK(rigs_of(file)[0].scene.dump() == before);

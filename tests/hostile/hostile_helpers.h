@@ -26,6 +26,8 @@ struct Victim {
 
 /// Models with a skin and a clip: small ones of the corpus, or where it is absent one of our own.
 const std::vector<Victim>& skinned_victims();
+/// Every small .glb of the corpus, whatever is in it; the one of our own where it is absent.
+const std::vector<Victim>& binary_victims();
 /// The one of our own: two joints, a skin, a mesh, a clip.
 Victim small_victim();
 /// A file that rigc wrote: a rig of the test's own template with a clip on one of its controls.

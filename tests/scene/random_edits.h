@@ -11,7 +11,9 @@ namespace rigc::test {
 
 class RandomEdits {
  public:
-  RandomEdits(scene::Scene& scene, std::uint64_t seed) : scene_(scene), random_(seed) {}
+  /// `plain`: only values that a rig file takes.
+  RandomEdits(scene::Scene& scene, std::uint64_t seed, bool plain = false)
+      : scene_(scene), random_(seed), plain_(plain) {}
 
   /// `count` changes, as one command makes them.
   void run(scene::Journal& journal, scene::Observer* observer, int count, std::uint32_t command) {
@@ -35,8 +37,10 @@ class RandomEdits {
 
   void make(scene::Edit& edit, std::uint32_t command) {
     scene::Node node;
-    node.kind =
-        static_cast<scene::Kind>(random_.below(static_cast<std::size_t>(scene::Kind::count)));
+    do {
+      node.kind =
+          static_cast<scene::Kind>(random_.below(static_cast<std::size_t>(scene::Kind::count)));
+    } while (plain_ && node.kind == scene::Kind::mesh);
     node.name = fmt::format("node_{}", random_.below(50));
     node.ids.local = fmt::format("group_{}", random_.below(3));
     node.identity.owner.uid = random_.bits();
@@ -104,7 +108,15 @@ class RandomEdits {
       const bool keyable = random_.chance(50);
       return edit.set_access(to, keyable, random_.chance(50));
     }
-    if (scene_.role(to) != scene::Role::output) edit.set(to, value(*scene_.type(to)));
+    if (scene_.role(to) == scene::Role::output || (plain_ && has_form(to))) return;
+    edit.set(to, value(*scene_.type(to)));
+  }
+
+  /// Whether a rig file asks more of the value than its type.
+  bool has_form(const scene::Plug& to) const {
+    namespace control = scene::control;
+    if (scene_[to.node].kind != scene::Kind::control) return false;
+    return to.attribute > control::kShape && to.attribute != control::kColor;
   }
 
   void connect(scene::Edit& edit) {
@@ -119,6 +131,7 @@ class RandomEdits {
 
   scene::Scene& scene_;
   Random random_;
+  bool plain_;
 };
 
 }  // namespace rigc::test

@@ -329,8 +329,13 @@ TEST_CASE("templates fit: another kind of creature is a warning") {
                       joint.name.find("Leg") != std::string::npos ||
                       joint.name.find("Foot") != std::string::npos;
     const bool left = joint.name.find("Left") != std::string::npos;
-    const math::Vec3 spine{0, 0.5, at.y};
-    joint.rest.origin = limb ? math::Vec3{left ? 0.1 : -0.1, 0.5 - std::abs(at.x), at.y} : spine;
+    const math::Vec3 spine{0, 0.5, at.y};  // lies along the ground
+    joint.rest.origin = limb ? math::Vec3{left ? 0.1 : -0.1, 0.5 - 0.6 * std::abs(at.x),
+                                          joint.name.find("Arm") != std::string::npos ||
+                                                  joint.name.find("Hand") != std::string::npos
+                                              ? 1.0
+                                              : 0.2}
+                             : spine;
   }
   Diagnostics diagnostics;
   FitReport other;
