@@ -14,7 +14,6 @@ namespace {
 
 using scene::NodeId;
 
-constexpr std::size_t kPartWidth = 15;  // numbers of a part in scene::mesh::kParts
 constexpr int kVertexTarget = 34962, kIndexTarget = 34963;
 constexpr double kLargest = 1e30;  // of a coordinate
 

@@ -12,6 +12,9 @@
 
 namespace rigc::gltf {
 
+/// Numbers of a part in scene::mesh::kParts.
+inline constexpr std::size_t kPartWidth = 15;
+
 /// Pieces that one skin can hold: glTF wants the joints of a skin to share a root.
 struct ProxyGroup {
   scene::NodeId mesh;

@@ -7,12 +7,11 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "gltf/proxy_mesh.h"
 #include "gltf/rig_codes.h"
 
 namespace rigc::gltf {
 namespace {
-
-constexpr std::size_t kPartWidth = 15;  // numbers of a part in scene::mesh::kParts
 
 /// Attributes of controls that are bits, added up.
 struct Bits {

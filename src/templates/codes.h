@@ -183,6 +183,12 @@ inline constexpr Code kBuiltOtherwise{
     "No turn and no size of the template comes near to where the matched joints are: the model may "
     "be "
     "another kind of creature, or the map names the wrong bones. The rig is built as asked."};
+inline constexpr Code kMirrorImage{
+    351, Severity::warning, "model is the template's mirror image",
+    "The matched joints lie as the template's would in a mirror. The map, or the names of the "
+    "bones, "
+    "exchange left and right, and the rig would face backward; or a right hand was given to the "
+    "template of a left one."};
 inline constexpr Code kBadModel{350, Severity::error, "skeleton is malformed",
                                 "The skeleton's joints do not form a forest."};
 
@@ -258,6 +264,7 @@ inline constexpr const Code* kTemplatesCodes[] = {&kUnknownFormat,
                                                   &kHierarchyDiffers,
                                                   &kSheared,
                                                   &kBuiltOtherwise,
+                                                  &kMirrorImage,
                                                   &kBadModel,
                                                   &kBadSides,
                                                   &kMapEntryTwice,

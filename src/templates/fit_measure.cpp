@@ -19,8 +19,9 @@ using math::Vec3;
 constexpr double kSnapLeft = 0.9994;  // cosine of 2 degrees: left is measured well, from pairs
 constexpr double kSnapUp = 0.9659;    // of 15 degrees: a spine leans
 constexpr double kMostAsymmetry = 0.02;
-constexpr double kMostMisfit = 0.65;     // Fox as a biped: 0.78; posed humanoids: up to 0.56
-constexpr std::size_t kLeastJoints = 6;  // to tell one build from another
+constexpr double kMostMisfit = 0.65;        // Fox as a biped: 0.78; posed humanoids: up to 0.56
+constexpr double kMirrorFitsBetter = 0.98;  // player with its sides exchanged: 0.97; others 0.995
+constexpr std::size_t kLeastJoints = 6;     // to tell one build from another
 
 struct Sample {
   Vec3 own;  ///< in the template, metres
@@ -86,9 +87,8 @@ math::Mat3 turn_of(const std::vector<Sample>& samples) {
   return math::matrix(math::between(normalised(own_line), normalised(world_line)));
 }
 
-/// How much of the required joints' spread no turn and scale of the template explains, 0 to 1.
-double misfit_of(std::vector<Sample> samples) {
-  std::erase_if(samples, [](const Sample& sample) { return !sample.required; });
+/// How much of the joints' spread no turn and scale of the template explains, 0 to 1.
+double misfit_of(const std::vector<Sample>& samples) {
   if (samples.size() < kLeastJoints) return 0;
   const math::Mat3 turn = turn_of(samples);
   const auto [own_mean, world_mean] = means(samples);
@@ -100,6 +100,28 @@ double misfit_of(std::vector<Sample> samples) {
     both += dot(a, b);
   }
   return own > 0 && world > 0 ? math::sqrt(1 - both * both / (own * world)) : 1;
+}
+
+/// Warns of a model that is not the template's kind of creature, or its mirror image.
+void check_build(const std::vector<Sample>& samples, const std::string& file, FitReport& report,
+                 Diagnostics& diagnostics) {
+  std::vector<Sample> required = samples, mirrored = samples;
+  std::erase_if(required, [](const Sample& sample) { return !sample.required; });
+  report.misfit = misfit_of(required);
+  if (report.misfit > kMostMisfit)
+    diagnostics.report(
+        codes::kBuiltOtherwise, Place(file),
+        fmt::format("even best turned and scaled, the template leaves {:.0f} % of how the joints "
+                    "are spread",
+                    report.misfit * 100),
+        "is it the right template for this creature, and the right map?");
+  for (Sample& sample : mirrored) sample.own.x = -sample.own.x;
+  const double as_is = misfit_of(samples), as_image = misfit_of(mirrored);
+  if (as_image < as_is * kMirrorFitsBetter)
+    diagnostics.report(codes::kMirrorImage, Place(file),
+                       "the model looks like the mirror image of the template: toes, knees and "
+                       "elbows point the wrong way",
+                       "left and right may be exchanged in the map or in the bones' names");
 }
 
 Vec3 snapped(Vec3 direction, double cosine) {
@@ -224,13 +246,7 @@ Measured measure(const Expanded& expanded, const tags::TaggedSkeleton& placed,
   const double rig_height = rig.second - rig.first;
   out.character.unit = unit_of(samples, own_height, rig_height, length(to_rig * up));
   out.character.height = rig_height > 0 ? rig_height : out.character.unit;
-  report.misfit = misfit_of(samples);
-  if (report.misfit > kMostMisfit)
-    diagnostics.report(codes::kBuiltOtherwise, Place(model.file),
-                       fmt::format("even best turned and scaled, the template leaves {:.0f} % of "
-                                   "how the joints are spread",
-                                   report.misfit * 100),
-                       "is it the right template for this creature, and the right map?");
+  check_build(samples, model.file, report, diagnostics);
   check_symmetry(expanded, model, matching, left, report, diagnostics);
   return out;
 }

@@ -344,6 +344,19 @@ TEST_CASE("templates fit: another kind of creature is a warning") {
   CHECK(numbers(diagnostics) == std::vector<int>{349});
 }
 
+TEST_CASE("templates fit: bones whose sides are exchanged are a warning") {
+  Case c;
+  auto model = as_model(*c.placed, {}, c.names);
+  for (tags::ForeignJoint& joint : model.joints) {
+    const std::size_t left = joint.name.find("Left"), right = joint.name.find("Right");
+    if (left != std::string::npos) joint.name.replace(left, 4, "Right");
+    if (right != std::string::npos) joint.name.replace(right, 5, "Left");
+  }
+  FitReport report;
+  CHECK(fit(*c.expanded, model, *c.map, report, c.diagnostics));
+  CHECK(numbers(c.diagnostics) == std::vector<int>{351});
+}
+
 TEST_CASE("templates fit: a flat template is measured by its size, and one on end by its line") {
   Diagnostics diagnostics;
   const auto expanded = expand_text(
