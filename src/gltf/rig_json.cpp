@@ -105,8 +105,8 @@ std::string to_json(const Rig& rig, const Sources& sources) {
 }
 
 std::optional<Rig> from_json(const json::Value& object, const std::string& file,
-                             Diagnostics& diagnostics, Origins origins) {
-  JsonReader reader(file, diagnostics);
+                             Diagnostics& diagnostics, Origins origins, std::size_t* room) {
+  JsonReader reader(file, diagnostics, room ? *room : kMostParts);
   Rig rig;
   reader.get(object, "id", 0, UINT32_MAX, rig.id, Need::required);
   PlaceReader places(object, reader, origins == Origins::file ? file : "");
@@ -117,6 +117,7 @@ std::optional<Rig> from_json(const json::Value& object, const std::string& file,
   read_commands(object, reader, places, rig);
   read_owned(object, reader, rig.owned);
   if (reader.ok()) read_scene(object, reader, places, rig);
+  if (room) *room = reader.room();
   if (!reader.ok()) return std::nullopt;
   return rig;
 }

@@ -24,8 +24,10 @@ std::string to_json(const Rig& rig, const Sources& sources);
 
 /// The reverse; `file` is the name for messages. Sources of the rig's files are added without their
 /// texts. Indices of glTF nodes are only checked not to be below -1. With Origins::file nodes come
-/// from where they stand in the file, not from the template's lines.
+/// from where they stand in the file, not from the template's lines. `room`: how many parts it may
+/// have, and how many are left for the next rig.
 std::optional<Rig> from_json(const json::Value& object, const std::string& file,
-                             Diagnostics& diagnostics, Origins origins = Origins::templates);
+                             Diagnostics& diagnostics, Origins origins = Origins::templates,
+                             std::size_t* room = nullptr);
 
 }  // namespace rigc::gltf

@@ -15,17 +15,19 @@ namespace {
 
 /// Attributes of controls that are bits, added up.
 struct Bits {
-  std::string_view name;
+  std::uint16_t attribute;
   int all;
 };
-constexpr Bits kBits[] = {{"keyable", 7}, {"locked", 511}, {"hidden", 511}};
+constexpr Bits kBits[] = {
+    {scene::control::kKeyable, 7}, {scene::control::kLocked, 511}, {scene::control::kHidden, 511}};
 
 void check_bits(const json::Value& values, JsonReader& reader) {
   for (const Bits& bits : kBits) {
-    const auto number = values[bits.name].number();
+    const std::string_view name = scene::spec(scene::Kind::control).attributes[bits.attribute].name;
+    const auto number = values[name].number();
     if (number && !(*number >= 0 && *number <= bits.all && *number == std::floor(*number)))
-      reader.fail(codes::kRigValue, values[bits.name],
-                  fmt::format("\"{}\" is a whole number from 0 to {}", bits.name, bits.all));
+      reader.fail(codes::kRigValue, values[name],
+                  fmt::format("\"{}\" is a whole number from 0 to {}", name, bits.all));
   }
 }
 

@@ -145,7 +145,8 @@ bool JsonReader::spend(const json::Value& at, std::size_t count) {
     room_ -= count;
     return true;
   }
-  fail(codes::kRigTooLarge, at, "the rig has too many tags, commands and arguments");
+  fail(codes::kRigTooLarge, at,
+       fmt::format("rigs have more than {} tags, arguments and elements", kMostParts));
   return false;
 }
 

@@ -18,14 +18,18 @@ namespace rigc::gltf {
 /// The largest number that a rig may have: what 32-bit floats hold, with room to calculate.
 inline constexpr double kLargestNumber = 1e30;
 
+/// Tags, commands, arguments, elements of arrays and the like in all rigs of a file: they take up
+/// to a hundred times their shortest text.
+inline constexpr std::size_t kMostParts = std::size_t{1} << 18;
+
 enum class Need : std::uint8_t { optional, required };
 
 /// Each function gives false, and leaves `out`, where it reported an error or the member is
 /// missing.
 class JsonReader {
  public:
-  JsonReader(std::string file, Diagnostics& diagnostics)
-      : file_(std::move(file)), diagnostics_(diagnostics) {}
+  JsonReader(std::string file, Diagnostics& diagnostics, std::size_t room = kMostParts)
+      : file_(std::move(file)), diagnostics_(diagnostics), room_(room) {}
 
   bool ok() const { return errors_ == 0; }
   Diagnostics& diagnostics() { return diagnostics_; }
@@ -44,9 +48,10 @@ class JsonReader {
   bool read(const json::Value& value, Identity& out);
   bool read(const json::Value& value, std::vector<double>& out);
   bool read(const json::Value& value, std::vector<std::string>& out);
-  /// Whether there is room for `count` more tags, commands, arguments and the like: they take
-  /// a hundred times their shortest text. Too many are reported, once.
+  /// Whether there is room for `count` more parts of rigs. Too many are reported, once.
   bool spend(const json::Value& at, std::size_t count);
+  /// How many more there is room for.
+  std::size_t room() const { return room_; }
   /// A whole number in `low`..`high`.
   bool whole(const json::Value& value, std::int64_t low, std::int64_t high, std::int64_t& out);
 
@@ -80,7 +85,7 @@ class JsonReader {
   std::string file_;
   Diagnostics& diagnostics_;
   std::size_t errors_ = 0;
-  std::size_t room_ = std::size_t{1} << 18;
+  std::size_t room_;
 };
 
 }  // namespace rigc::gltf

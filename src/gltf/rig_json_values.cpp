@@ -132,6 +132,7 @@ void read_attribute(const json::Value& value, JsonReader& reader, SceneMaker& ma
     return reader.fail(codes::kRigTooLarge, value,
                        fmt::format("\"{}\" has more than {} elements, or all arrays too many",
                                    attribute.name, kMostElements));
+  if (!reader.spend(value, value.size())) return;
   Plug element = plug;
   element.element = 0;
   for (const json::Value& item : value.items()) {

@@ -147,7 +147,7 @@ std::optional<std::vector<Text>> read_texts(const File& file, const json::Value&
   std::vector<Text> texts;
   std::set<std::uint32_t> ids;
   bool complete = true;
-  std::size_t node_count = 0;
+  std::size_t node_count = 0, room = kMostParts;
   for (const json::Value& item : reader.objects(extension, "rigs", kMostRigs, Need::required)) {
     node_count += item["nodes"].size();
     if (node_count > kMostNodes) {
@@ -155,7 +155,7 @@ std::optional<std::vector<Text>> read_texts(const File& file, const json::Value&
                   fmt::format("all rigs together have more than {} nodes", kMostNodes));
       break;
     }
-    auto rig = from_json(item, file.path, diagnostics, origins);
+    auto rig = from_json(item, file.path, diagnostics, origins, &room);
     complete = complete && rig;
     if (!rig) continue;
     if (!ids.insert(rig->id).second)

@@ -167,8 +167,8 @@ TEST_CASE("hostile rig: nodes of the scene") {
        {"keyable_huge", {"/{rig}/nodes/{control}/values/keyable", "1e30"}, 708},
        {"keyable_fraction", {"/{rig}/nodes/{control}/values/keyable", "0.5"}, 708},
        {"keyable_negative", {"/{rig}/nodes/{control}/values/keyable", "-1"}, 708},
-       {"locked_huge", {"/{rig}/nodes/{control}/values/locked", "512"}, 708},
-       {"hidden_fraction", {"/{rig}/nodes/{control}/values/hidden", "0.5"}, 708},
+       {"locked_huge", {"/{rig}/nodes/{control}/values/locked_components", "512"}, 708},
+       {"hidden_fraction", {"/{rig}/nodes/{control}/values/hidden_components", "0.5"}, 708},
        {"mirror_short", {"/{rig}/nodes/{control}/values/mirror", "[1, -1]"}, 708},
        {"mesh_parts_short", {"/{rig}/nodes/{mesh}/values/parts", "[0, 1, 2]"}, 708},
        {"mesh_no_joints",
@@ -185,6 +185,28 @@ TEST_CASE("hostile rig: nodes of the scene") {
        {"user_value_text", {"/{rig}/nodes/{control}/user/0/value", R"("1")"}, 701},
        {"user_object", {"/{rig}/nodes/{control}/user", "{}"}, 701}},
       "scene");
+}
+
+TEST_CASE("hostile rig: parts without number") {
+  const std::string weights = R"("values": {"weights": [)" + repeated("0,", 999) + "0]}";
+  std::string nodes = "[";
+  for (int i = 0; i < 300; ++i)
+    nodes += std::string(i ? "," : "") +
+             R"({"kind": "point_constraint", "name": "", "command": 0, "identity": )" +
+             R"("0:0000000000000001:0000000000000001:c:r:)" + std::to_string(i) + "\", " + weights +
+             "}";
+  nodes += "]";
+  const std::string many_nodes = "[" + repeated("{},", 32768) + "{}]";
+  const std::string numbers = "{\"a\": [" + repeated("0,", 600'000) + "0]}";
+  const std::string tags = "[" + repeated("{},", 65536) + "{}]";
+  expect_rig({{"weights", {"/{rig}/nodes", nodes.c_str()}, 709, "/{rig}/nodes/261/values/weights"},
+              {"nodes", {"/{rig}/nodes", many_nodes.c_str()}, 709},
+              {"arguments",
+               {"/{rig}/joints/0/commands/0/with", numbers.c_str()},
+               709,
+               "/{rig}/joints/0/commands/0/with/a"},
+              {"tags", {"/{rig}/joints/0/commands", tags.c_str()}, 709}},
+             "parts");
 }
 
 TEST_CASE("hostile rig: connections") {
