@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the checks of this folder share: finding glTF files under folders and reading their JSON.
-import { readFileSync, readdirSync, statSync } from "node:fs";
+import { readFileSync, readdirSync, lstatSync } from "node:fs";
 import { basename, join } from "node:path";
 
 /// All .glb and .gltf files at or under the paths, sorted. Folders named `broken` hold inputs that tests damage on
@@ -9,7 +9,7 @@ export function gltfFiles(paths) {
   const found = [];
   const visit = (path) => {
     if (basename(path) === "broken") return;
-    if (statSync(path).isDirectory()) readdirSync(path).forEach((name) => visit(join(path, name)));
+    if (lstatSync(path).isDirectory()) readdirSync(path).forEach((name) => visit(join(path, name)));
     else if (/\.(glb|gltf)$/.test(path)) found.push(path);
   };
   paths.forEach(visit);
