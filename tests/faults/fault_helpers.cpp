@@ -163,7 +163,7 @@ std::vector<std::string> calls_of(const Stage& stage) {
   const fs::path log = stage.path().string() + ".log";
   fs::remove(log);
   stage.reset();
-  Environment environment = faulty(stage.path() / "", 0, "0");
+  Environment environment = faulty(stage.path(), 0, "0");
   environment.push_back({"RIGC_FAULT_LOG", log.string()});
   const Outcome outcome = stage.run(environment);
   const auto calls = lines_of(file_text(log));

@@ -37,7 +37,7 @@ void fail_once(const Stage& stage, const std::string& call, int at, const std::s
   CAPTURE(call);
   CAPTURE(kind);
   stage.reset();
-  const Outcome outcome = stage.run(faulty(stage.path() / "", at, kind));
+  const Outcome outcome = stage.run(faulty(stage.path(), at, kind));
   CAPTURE(outcome.err);
   const Files files = stage.files();
   const bool refused = outcome.status == 3;
@@ -67,6 +67,7 @@ TEST_CASE(
     for (const std::string& call : calls) names.insert(name_of_call(call));
     for (const char* needed : {"open", "write", "fsync", "rename", "close"})
       CHECK(names.count(needed) == 1);
+    CHECK(std::count(calls.begin(), calls.end(), "fsync " + stage.path().string()) >= 1);
     int runs = 0;
     for (std::size_t i = 0; i < calls.size(); ++i) {
       for (const std::string& kind : kinds_of(calls[i])) {

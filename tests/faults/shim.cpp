@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Preloaded into a program under test: counts the calls of the file layer that concern one folder,
 // and makes one of them fail, kills the process there, or has another program do something first.
-//   RIGC_FAULT_FOLDER  calls for paths that begin so count, and for files opened by such paths
+//   RIGC_FAULT_FOLDER  calls for it and paths below it count, and for files opened by such paths
 //   RIGC_FAULT_LOG     file that each counted call is appended to: its name and its path
 //   RIGC_FAULT_AT      number of the call, from 1
 //   RIGC_FAULT_KIND    an errno; `short`: half of what was asked for; `kill`; `remove`: the file
@@ -45,7 +45,9 @@ std::array<std::array<char, kMostPath>, kMostDescriptors> opened{};
 
 bool concerns(const char* path) {
   const char* folder = setting("RIGC_FAULT_FOLDER");
-  return path && *folder && std::strncmp(path, folder, std::strlen(folder)) == 0;
+  const std::size_t length = std::strlen(folder);
+  if (!path || length == 0 || std::strncmp(path, folder, length) != 0) return false;
+  return path[length] == '/' || path[length] == '\0';
 }
 
 const char* path_of(int descriptor) {
