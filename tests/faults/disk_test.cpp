@@ -32,7 +32,8 @@ int run_prepared(const Stage& stage, const std::function<bool()>& prepare, std::
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
-    const bool ready = std::freopen(log.c_str(), "w", stderr) != nullptr && prepare();
+    const bool ready = std::freopen(log.c_str(), "w", stderr) != nullptr &&
+                       std::freopen("/dev/null", "w", stdout) != nullptr && prepare();
     if (ready) ::execv(argv[0], argv.data());
     ::_exit(99);
   }

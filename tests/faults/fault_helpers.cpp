@@ -18,8 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path faults_folder() { return fs::path(RIGC_TEST_OUT) / "faults"; }
-
 std::string named(const char* variable) {
   const char* value = std::getenv(variable);
   REQUIRE_MESSAGE(value, variable << " is not set; run the tests by ctest");

@@ -47,6 +47,9 @@ class Stage {
   std::filesystem::path folder_;
 };
 
+/// Where the folders of commands are.
+std::filesystem::path faults_folder();
+
 /// All commands that faults are tried on, each run once without any: so that `after` is known.
 const std::vector<Command>& commands();
 
