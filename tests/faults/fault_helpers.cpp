@@ -16,6 +16,8 @@ namespace rigc::test {
 
 namespace fs = std::filesystem;
 
+fs::path faults_folder() { return fs::path(RIGC_TEST_OUT) / "faults/broken"; }
+
 namespace {
 
 std::string named(const char* variable) {
