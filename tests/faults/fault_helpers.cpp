@@ -168,9 +168,10 @@ std::vector<std::string> calls_of(const Stage& stage) {
   const Outcome outcome = stage.run(environment);
   const auto calls = lines_of(file_text(log));
   fs::remove(log);
-  const bool works = outcome.status == 0 && !calls.empty();
-  if (works) CHECK(stage.files() == stage.command().after);
-  return works ? calls : std::vector<std::string>();
+  REQUIRE_MESSAGE(!calls.empty(), "the shim is not preloaded into " << stage.command().binary);
+  REQUIRE(outcome.status == 0);
+  REQUIRE(stage.files() == stage.command().after);
+  return calls;
 }
 
 int count_from_environment(const char* name, int otherwise) {
