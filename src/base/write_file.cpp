@@ -206,6 +206,22 @@ bool flush(int descriptor) {
   return true;
 }
 
+/// Whether the target is what was read, also if the links on the way to it changed meanwhile.
+bool is_expected(const std::string& path, const Target& target, const FileVersion& expected) {
+  struct stat named {
+  }, replaced{};
+  return ::stat(path.c_str(), &named) == 0 && ::lstat(target.path.c_str(), &replaced) == 0 &&
+         posix::version_of(named) == expected && posix::version_of(replaced) == expected;
+}
+
+bool refuse_other(const std::string& path, Diagnostics& diagnostics) {
+  diagnostics.report(codes::kFileReplaced, path,
+                     file_exists(path)
+                         ? "the file was changed after it was read; it is not replaced"
+                         : "the file has vanished after it was read");
+  return false;
+}
+
 /// Gives the new file the owner (where that is allowed) and the mode of the one that it replaces.
 bool copy_mode(int descriptor, const struct stat& status) {
   const bool is_owner_kept = ::fchown(descriptor, status.st_uid, status.st_gid) == 0;
@@ -213,20 +229,27 @@ bool copy_mode(int descriptor, const struct stat& status) {
   return ::fchmod(descriptor, mode) == 0;
 }
 
+bool set_mode(int descriptor, const Target& target, std::optional<unsigned> mode_if_new) {
+  if (target.exists) return copy_mode(descriptor, target.status);
+  return !mode_if_new || ::fchmod(descriptor, *mode_if_new & 0777) == 0;
+}
+
 }  // namespace
 
-bool write_file(const std::string& path, const std::vector<Bytes>& pieces,
-                Diagnostics& diagnostics) {
+bool write_file(const std::string& path, const std::vector<Bytes>& pieces, Diagnostics& diagnostics,
+                const WriteSettings& settings) {
   Target target;
   if (!find_target(path, target, diagnostics)) return false;
   if (!check_target(path, target, diagnostics)) return false;
+  const FileVersion* const expected = settings.expected;
+  if (expected && !is_expected(path, target, *expected)) return refuse_other(path, diagnostics);
   // Opened before anything changes: after the rename only the flush itself may still fail.
   const posix::Descriptor folder = posix::open(folder_of(target.path), O_RDONLY | O_DIRECTORY);
   Temporary temporary(target.path);
   posix::Descriptor& file = temporary.file();
   if (!file) return refuse(path, "create a file in its folder", errno, diagnostics);
   if (!append_all(pieces, file.get(), path, diagnostics)) return false;
-  if (target.exists && !copy_mode(file.get(), target.status))
+  if (!set_mode(file.get(), target, settings.mode))
     return refuse(path, "set the mode", errno, diagnostics);
   struct stat written {};
   if (!flush(file.get()) || ::fstat(file.get(), &written) != 0)
@@ -234,6 +257,7 @@ bool write_file(const std::string& path, const std::vector<Bytes>& pieces,
   if (!file.close()) return refuse(path, "close", errno, diagnostics);
   for (const Bytes& piece : pieces)
     if (piece.file() && !piece.file()->check_unchanged(diagnostics)) return false;
+  if (expected && !is_expected(path, target, *expected)) return refuse_other(path, diagnostics);
   if (!temporary.become(target.path)) return refuse(path, "rename", errno, diagnostics);
   remove_leftovers(target.path, written.st_mtime);
   if (folder && !flush(folder.get()))
