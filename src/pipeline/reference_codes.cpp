@@ -12,6 +12,7 @@
 #include "gltf/codes.h"
 #include "gltf/rig_codes.h"
 #include "modules/codes.h"
+#include "pipeline/batch_codes.h"
 #include "pipeline/codes.h"
 #include "pipeline/reference.h"
 #include "processor/codes.h"
@@ -47,6 +48,7 @@ std::vector<const Code*> all_codes() {
   add(gltf::codes::kGltfCodes, codes);
   add(gltf::codes::kRigCodes, codes);
   add(pipeline::codes::kPipelineCodes, codes);
+  add(pipeline::codes::kBatchCodes, codes);
   std::sort(codes.begin(), codes.end(),
             [](const Code* a, const Code* b) { return a->number < b->number; });
   return codes;
