@@ -36,6 +36,7 @@ struct Session {
   Diagnostics diagnostics;
   bool json = false;
   std::string out;    ///< for stdout, printed when the command ends
+  int status = 0;     ///< exit status where no error was reported
   std::string notes;  ///< for stderr after the diagnostics: timings
 };
 
