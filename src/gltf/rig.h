@@ -136,6 +136,7 @@ struct Replacement {
   const Rig* old = nullptr;  ///< as it was read from the file
   Rig* fresh = nullptr;      ///< nodes and owned are filled; its orphans may hold a node of `old`
   std::vector<int> places;   ///< by scene node of `fresh`: glTF node of `old` that it takes over, -1
+  Sources sources;           ///< that spans of `fresh` point into
 };
 
 /// Takes rigs out and writes their successors. A node that takes over one of the old rig keeps its

@@ -92,7 +92,10 @@ bool replace_rigs(Patch& patch, const File& file, std::vector<Replacement>& repl
   const std::set<int> going = strip_but(patch, file, old, Strip::nothing, kept);
   for (Replacement& one : replacements) {
     const Places places{one.places, find_additions(nodes, *one.old, going, kept.nodes)};
-    if (!write_rig(patch, *one.fresh, one.old->ancestor, places, diagnostics)) return false;
+    Diagnostics writing(one.sources);
+    const bool written = write_rig(patch, *one.fresh, one.old->ancestor, places, writing);
+    diagnostics.append(writing);
+    if (!written) return false;
   }
   return true;
 }

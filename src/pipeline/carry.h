@@ -54,7 +54,9 @@ class Carrier {
   /// Finds where everything goes: sets values and orphans of `fresh`.
   void run();
   const CarryReport& report() const { return report_; }
-  gltf::Replacement replacement() { return {&old_, &fresh_, places_}; }
+  gltf::Replacement replacement(const Sources& sources) {
+    return {&old_, &fresh_, places_, sources};
+  }
   /// Compares how the rigs play; empty where one cannot be evaluated.
   std::optional<std::vector<ClipComparison>> compare(Diagnostics& diagnostics) const;
   /// To be called when the nodes of `fresh` are known.
