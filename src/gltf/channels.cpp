@@ -59,6 +59,16 @@ int append_output(Patch& patch, const ChannelEdit& edit) {
   return patch.append(std::move(accessor));
 }
 
+/// The node that a channel drives, by pointer too; -1: none.
+int driven_node(const Value& channel) {
+  const Value target = channel["target"];
+  if (target["node"]) return static_cast<int>(target["node"].integer().value_or(-1));
+  const auto pointer = target["extensions"][kPointer]["pointer"].string();
+  if (!pointer || !starts_with(*pointer, "/nodes/")) return -1;
+  const auto node = parse_integer(split(*pointer, '/')[2]);
+  return node && *node >= 0 && *node <= INT32_MAX ? static_cast<int>(*node) : -1;
+}
+
 /// One animation with its edits.
 class Editor {
  public:
@@ -133,17 +143,28 @@ void edit_channels(Patch& patch, const File& file, const std::vector<ChannelEdit
 
 std::set<int> animated_nodes(const File& file) {
   std::set<int> out;
-  for (const Value& animation : file.root()["animations"].items()) {
-    for (const Value& channel : animation["channels"].items()) {
-      const Value target = channel["target"];
-      if (target["node"]) out.insert(static_cast<int>(target["node"].integer().value_or(-1)));
-      const auto pointer = target["extensions"][kPointer]["pointer"].string();
-      if (!pointer || !starts_with(*pointer, "/nodes/")) continue;
-      const auto node = parse_integer(split(*pointer, '/')[2]);
-      if (node && *node >= 0 && *node <= INT32_MAX) out.insert(static_cast<int>(*node));
-    }
-  }
+  for (const Value& animation : file.root()["animations"].items())
+    for (const Value& channel : animation["channels"].items())
+      if (const int node = driven_node(channel); node >= 0) out.insert(node);
   return out;
+}
+
+std::size_t drop_channels(Patch& patch, const File& file, const std::set<int>& nodes) {
+  std::vector<ClipChange> changes;
+  std::size_t count = 0;
+  const auto animations = file.root()["animations"].items();
+  for (std::size_t i = 0; i < animations.size(); ++i) {
+    ClipChange change;
+    change.clip.source_animation = static_cast<int>(i);
+    const auto channels = animations[i]["channels"].items();
+    for (std::size_t c = 0; c < channels.size(); ++c)
+      if (nodes.count(driven_node(channels[c])))
+        change.dropped_channels.push_back(static_cast<int>(c));
+    count += change.dropped_channels.size();
+    if (!change.dropped_channels.empty()) changes.push_back(std::move(change));
+  }
+  if (!changes.empty()) write_clips(patch, file, changes);
+  return count;
 }
 
 }  // namespace rigc::gltf

@@ -31,4 +31,7 @@ void edit_channels(Patch& patch, const File& file, const std::vector<ChannelEdit
 /// Nodes that any channel drives, by pointer too, whatever it drives of them.
 std::set<int> animated_nodes(const File& file);
 
+/// Takes all channels away that drive one of these nodes, and gives how many there were.
+std::size_t drop_channels(Patch& patch, const File& file, const std::set<int>& nodes);
+
 }  // namespace rigc::gltf

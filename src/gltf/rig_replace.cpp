@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "gltf/rig_json_orphans.h"
+#include "gltf/rig_nodes.h"
 
 namespace rigc::gltf {
 namespace {
@@ -74,6 +75,14 @@ std::map<int, Additions> find_additions(const std::vector<Value>& nodes, const R
 }
 
 }  // namespace
+
+std::vector<int> own_nodes(const Rig& rig) {
+  std::vector<int> out = rig.nodes;
+  const NodePlan plan = plan_nodes(rig, rig.ancestor);
+  for (const NodeId id : rig.scene.nodes())
+    if (plan.foreign[id.index] >= 0) out[id.index] = -1;
+  return out;
+}
 
 bool replace_rigs(Patch& patch, const File& file, std::vector<Replacement>& replacements,
                   Diagnostics& diagnostics) {

@@ -255,6 +255,7 @@ std::optional<NewRig> Updater::next_rig(const Recompilation& file, const gltf::R
                                    "setting for",
                                    quoted(setting), quoted(old.skeleton.global)));
   next.skeleton = *std::move(skeleton);
+  next.skeleton_only = old.commands.empty();  // it was taken apart, and stays so
   return next;
 }
 
