@@ -154,7 +154,11 @@ std::optional<std::vector<std::string>> list_folder(const std::string& path,
 std::optional<std::string> resolved_path(const std::string& path) { return resolve(path); }
 
 std::optional<std::string> confine(const std::string& folder, const std::string& path) {
-  if (path.empty() || !folder_exists(folder)) return std::nullopt;
+  struct stat status {};
+  const bool known = !posix::has_nul(folder) && ::stat(folder.c_str(), &status) == 0;
+  // What the system refuses to say of a folder it refuses again when the file is opened.
+  const bool is_missing = known ? !S_ISDIR(status.st_mode) : errno == ENOENT || errno == ENOTDIR;
+  if (path.empty() || is_missing) return std::nullopt;
   const auto inside = resolve(folder);
   const auto resolved = resolve(join_path(folder, path));
   if (!inside || !resolved) return std::nullopt;

@@ -39,7 +39,7 @@ TEST_CASE("pipeline batch progress: a terminal has one line, rewritten ten times
   CHECK(shown.after(98.91, {200, 1000, 2}) ==
         "\r\x1b[K200 of 1000 files, 2.0 a second, 6 min 40 s left, 2 failed");
   CHECK(shown.after(1900, {201, 100'000, 2}) ==
-        "\r\x1b[K201 of 100000 files, 0.1 a second, 275 h 53 min left, 2 failed");
+        "\r\x1b[K201 of 100000 files, 0.1 a second, 275 h 50 min left, 2 failed");
   shown.printer.end();
   CHECK(std::exchange(shown.text, {}) == "\r\x1b[K");
   shown.printer.end();
