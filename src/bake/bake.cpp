@@ -14,11 +14,13 @@ namespace {
 /// Only with its times.
 anim::Clip clip_of(const std::vector<eval::ClipInput>& inputs) {
   anim::Clip clip;
-  for (const eval::ClipInput& input : inputs) clip.channels.emplace_back().curve.times = input.curve->times;
+  for (const eval::ClipInput& input : inputs)
+    clip.channels.emplace_back().curve.times = input.curve->times;
   return clip;
 }
 
-std::vector<bool> animated_nodes(const scene::Scene& scene, const std::vector<eval::ClipInput>& inputs) {
+std::vector<bool> animated_nodes(const scene::Scene& scene,
+                                 const std::vector<eval::ClipInput>& inputs) {
   std::vector<bool> animated(scene.size(), false);
   for (const eval::ClipInput& input : inputs)
     if (input.plug.attribute < scene::transform::kCount) animated[input.plug.node.index] = true;

@@ -103,8 +103,8 @@ math::Affine world_of(const Body& body, const math::Trs& local, const math::Affi
 }
 
 std::optional<Motion> evaluate(const scene::Scene& scene, const std::vector<Body>& bodies,
-                               const std::vector<eval::ClipInput>& inputs, std::vector<double> times,
-                               Diagnostics& diagnostics) {
+                               const std::vector<eval::ClipInput>& inputs,
+                               std::vector<double> times, Diagnostics& diagnostics) {
   eval::Request request;
   for (const eval::ClipInput& input : inputs) request.inputs.push_back(input.plug);
   for (const Body& body : bodies) {

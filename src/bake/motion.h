@@ -24,8 +24,8 @@ struct Motion {
 inline constexpr std::size_t kMotionWidth = 22;
 
 std::optional<Motion> evaluate(const scene::Scene& scene, const std::vector<Body>& bodies,
-                               const std::vector<eval::ClipInput>& inputs, std::vector<double> times,
-                               Diagnostics& diagnostics);
+                               const std::vector<eval::ClipInput>& inputs,
+                               std::vector<double> times, Diagnostics& diagnostics);
 
 /// World of a body from its local transform and the world of its base (null: the rig's space).
 math::Affine world_of(const Body& body, const math::Trs& local, const math::Affine* base);

@@ -35,7 +35,7 @@ std::optional<Plug> plug_of(const scene::Scene& scene, NodeId id, const anim::Ch
 }  // namespace
 
 std::vector<ClipInput> clip_inputs(const scene::Scene& scene, const std::vector<int>& nodes,
-                               const anim::Clip& clip) {
+                                   const anim::Clip& clip) {
   std::map<int, NodeId> by_node;
   for (const NodeId id : scene.nodes()) {
     const bool moves = scene::spec(scene[id].kind).is_transform && nodes[id.index] >= 0;

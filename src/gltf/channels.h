@@ -16,12 +16,12 @@ namespace rigc::gltf {
 
 /// A change to one channel.
 struct ChannelEdit {
-  int animation = 0, channel = 0;  ///< indices in the file
-  int node = -1;                   ///< that it drives from now on
-  std::string attribute;           ///< of Path::attribute: name in the node's extras
-  anim::Path path = anim::Path::translation;      ///< as it was
-  int width = 3;                                  ///< numbers of a value
-  std::optional<std::vector<float>> values;       ///< in place of those of its sampler
+  int animation = 0, channel = 0;             ///< indices in the file
+  int node = -1;                              ///< that it drives from now on
+  std::string attribute;                      ///< of Path::attribute: name in the node's extras
+  anim::Path path = anim::Path::translation;  ///< as it was
+  int width = 3;                              ///< numbers of a value
+  std::optional<std::vector<float>> values;   ///< in place of those of its sampler
 };
 
 /// Changes channels. A sampler that other channels use too is copied where values change. Outputs

@@ -75,9 +75,7 @@ class NumberTaker {
   }
 
  private:
-  int place_of(NodeId id) const {
-    return places_.nodes.empty() ? -1 : places_.nodes[id.index];
-  }
+  int place_of(NodeId id) const { return places_.nodes.empty() ? -1 : places_.nodes[id.index]; }
   int number(int place) {
     const int node = place >= 0 ? place : patch_.append("nodes", "{}");
     taken_.insert(node);
@@ -199,8 +197,8 @@ void write_node(Patch& patch, int node, std::string text, const Places& places) 
   patch.replace("nodes", node, std::move(text));
 }
 
-void write_nodes(Patch& patch, const Rig& rig, const NodePlan& plan,
-                 const std::vector<int>& meshes, const Places& places) {
+void write_nodes(Patch& patch, const Rig& rig, const NodePlan& plan, const std::vector<int>& meshes,
+                 const Places& places) {
   for (const auto* part : {&plan.stays, &plan.goes})
     for (const NodeId id : *part)
       write_node(patch, rig.nodes[id.index], node_text(rig, plan, id, meshes[id.index]), places);

@@ -135,8 +135,8 @@ inline void strip_rig(Patch& patch, const File& file, const Rig& rig,
 struct Replacement {
   const Rig* old = nullptr;  ///< as it was read from the file
   Rig* fresh = nullptr;      ///< nodes and owned are filled; its orphans may hold a node of `old`
-  std::vector<int> places;   ///< by scene node of `fresh`: glTF node of `old` that it takes over, -1
-  Sources sources;           ///< that spans of `fresh` point into
+  std::vector<int> places;  ///< by scene node of `fresh`: glTF node of `old` that it takes over, -1
+  Sources sources;          ///< that spans of `fresh` point into
 };
 
 /// By scene node: its glTF node where that is the rig's own and no joint of the model; else -1.

@@ -118,9 +118,8 @@ void find_orphans(const File& file, const Slim& slim, const std::vector<json::Va
   std::vector<Orphan> found;
   for (Orphan& orphan : rig.orphans) {
     const auto [first, last] = marked.equal_range(orphan_mark(orphan.identity));
-    auto at = std::find_if(first, last, [&](const auto& entry) {
-      return entry.second == orphan.node;
-    });
+    auto at =
+        std::find_if(first, last, [&](const auto& entry) { return entry.second == orphan.node; });
     if (at == last) at = first;
     if (at == last || !taken.insert(at->second).second) {
       diagnostics.report(codes::kNodeLost, Place(file.path, fmt::format("/nodes/{}", orphan.node)),
@@ -148,7 +147,7 @@ std::string orphan_text(const Rig& rig, const Orphan& orphan) {
     text += json::quote(name) + ':' + value;
   };
   if (!orphan.name.empty()) add("name", json::quote(orphan.name));
-  write_local(orphan.local, add);
+  write_local(orphan.local, true, add);
   add("extras", extras_text(orphan_mark(identity), orphan.attributes));
   return text + '}';
 }

@@ -3,6 +3,7 @@
 // Test: tests/gltf/rig_test.cpp
 #include "gltf/rig_nodes.h"
 
+#include <algorithm>
 #include <map>
 
 #include "base/json.h"
@@ -134,7 +135,9 @@ std::string node_text(const Rig& rig, const NodePlan& plan, NodeId id, int mesh)
   const scene::Node& node = rig.scene[id];
   std::string text = "{";
   if (!node.name.empty()) add_member(text, "name", json::quote(node.name));
-  write_local(rig.scene.local(id), [&](std::string_view name, const std::string& value) {
+  const bool posed = std::any_of(rig.posed.begin(), rig.posed.end(),
+                                 [&](const Posed& one) { return one.plug.node == id; });
+  write_local(rig.scene.local(id), posed, [&](std::string_view name, const std::string& value) {
     add_member(text, name, value);
   });
   if (mesh >= 0) add_member(text, "mesh", std::to_string(mesh));

@@ -35,12 +35,19 @@ std::string extras_text(const std::string& mark,
                         const std::vector<scene::UserAttribute>& attributes);
 std::string extras_text(const Rig& rig, scene::NodeId id);
 
-/// Adds translation, rotation and scale where they are not those of the identity.
+/// Adds translation, rotation and scale where they are not those of the identity. `exact`: as
+/// doubles, because they came from a file and shall read back as they were.
 template <class Add>
-void write_local(const math::Trs& local, Add add) {
-  if (local.translation != math::Vec3{}) add("translation", float_list(&local.translation.x, 3));
-  if (local.rotation != math::Quat{}) add("rotation", float_list(&local.rotation.x, 4));
-  if (local.scale != math::Vec3{1, 1, 1}) add("scale", float_list(&local.scale.x, 3));
+void write_local(const math::Trs& local, bool exact, Add add) {
+  const auto list = [&](const double* numbers, std::size_t count) {
+    if (!exact) return float_list(numbers, count);
+    json::Writer writer;
+    writer.numbers(numbers, count);
+    return writer.take();
+  };
+  if (local.translation != math::Vec3{}) add("translation", list(&local.translation.x, 3));
+  if (local.rotation != math::Quat{}) add("rotation", list(&local.rotation.x, 4));
+  if (local.scale != math::Vec3{1, 1, 1}) add("scale", list(&local.scale.x, 3));
 }
 
 /// A node of ours. `mesh`: -1 for none.

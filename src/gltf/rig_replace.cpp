@@ -42,8 +42,8 @@ Additions additions_to(const Value& node, const std::vector<std::string>& attrib
     if (!own.nodes[static_cast<std::size_t>(index_of(child))])
       out.children.push_back(index_of(child));
   for (const auto& [name, value] : node["extras"].members()) {
-    const bool ours = name == "rigc" || std::find(attributes.begin(), attributes.end(), name) !=
-                                            attributes.end();
+    const bool ours =
+        name == "rigc" || std::find(attributes.begin(), attributes.end(), name) != attributes.end();
     if (!ours) out.extras.emplace_back(name, std::string(value.text()));
   }
   return out;

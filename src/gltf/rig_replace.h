@@ -32,7 +32,7 @@ struct Additions {
 
 /// Places of a rig's nodes in its file.
 struct Places {
-  std::vector<int> nodes;  ///< by scene node: glTF node to write to, -1: a new one
+  std::vector<int> nodes;              ///< by scene node: glTF node to write to, -1: a new one
   std::map<int, Additions> additions;  ///< by glTF node
 };
 

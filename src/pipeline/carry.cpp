@@ -227,11 +227,9 @@ void Carrier::move_channels() {
       if (move.destination.kind == Destination::Kind::none) {
         hold(source, property);
         move.orphan = orphan_of(source);
-      } else if (update::changes_values(property, move.destination,
-                                        remap_->conversion(source))) {
+      } else if (update::changes_values(property, move.destination, remap_->conversion(source))) {
         anim::Curve curve = channel.curve;
-        converted = update::convert(curve, property, move.destination,
-                                    remap_->conversion(source));
+        converted = update::convert(curve, property, move.destination, remap_->conversion(source));
         if (!converted)
           report_.inexact.push_back(describe_source(source) + "@" + name_of(property));
         else if (curve.values != channel.curve.values)
@@ -323,8 +321,7 @@ void Carrier::report_nodes() {
   for (const NodeId id : fresh_.scene.nodes()) {
     const scene::Node& node = fresh_.scene[id];
     if (node.kind == scene::Kind::control && !known[id.index])
-      report_.controls_added.push_back(
-          describe(node.ids, node.module, node.identity, node.name));
+      report_.controls_added.push_back(describe(node.ids, node.module, node.identity, node.name));
   }
   const std::vector<int> from = update::counterparts(fresh_.skeleton, old_.skeleton);
   std::vector<bool> stays(old_.skeleton.joints.size(), false);
@@ -351,8 +348,7 @@ std::optional<std::vector<ClipComparison>> Carrier::compare(Diagnostics& diagnos
   for (std::size_t i = 0; i < from.size(); ++i) {
     if (from[i] < 0) continue;
     const auto now = fresh_joints.find(fresh_.skeleton.joints[i].key);
-    const auto was =
-        old_joints.find(old_.skeleton.joints[static_cast<std::size_t>(from[i])].key);
+    const auto was = old_joints.find(old_.skeleton.joints[static_cast<std::size_t>(from[i])].key);
     if (now != fresh_joints.end() && was != old_joints.end())
       joints.push_back({fresh_.skeleton.joints[i].name, was->second, now->second});
   }

@@ -20,8 +20,8 @@ namespace rigc::pipeline {
 
 /// What becomes of the keys of one property of a control, for people.
 struct CarriedProperty {
-  std::string from, to;  ///< `arm_l.elbow/ik_fk_limb.fk@rotation`; `to` empty: an orphan
-  std::string rule;      ///< identity, was, replaces, label; of an orphan empty
+  std::string from, to;      ///< `arm_l.elbow/ik_fk_limb.fk@rotation`; `to` empty: an orphan
+  std::string rule;          ///< identity, was, replaces, label; of an orphan empty
   std::size_t channels = 0;  ///< of all clips; 0: a value without keys
   bool converted = false;    ///< its values were changed
   bool returned = false;     ///< it was an orphan before
@@ -30,8 +30,8 @@ struct CarriedProperty {
 struct CarryReport {
   std::vector<std::string> controls_added, controls_removed, controls_moved;
   std::vector<std::string> joints_added, joints_removed;
-  std::size_t kept_channels = 0;  ///< to the same property of the same control, as they are
-  std::size_t kept_values = 0;    ///< values without keys, likewise
+  std::size_t kept_channels = 0;         ///< to the same property of the same control, as they are
+  std::size_t kept_values = 0;           ///< values without keys, likewise
   std::vector<CarriedProperty> changed;  ///< remapped, converted, orphaned or back
   std::vector<std::string> inexact;      ///< properties whose values cannot be said exactly
   std::size_t orphans = 0;               ///< properties that remain without a node

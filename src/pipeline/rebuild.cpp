@@ -144,8 +144,8 @@ std::optional<Removed> strip(const std::vector<std::string>& rigs, const FileWor
   }
   gltf::Patch patch(opened->file);
   std::set<int> gone;
-  for (const auto& [group, remains] : {std::pair(&models, gltf::Strip::nothing),
-                                       std::pair(&characters, gltf::Strip::character)})
+  for (const auto& [group, remains] :
+       {std::pair(&models, gltf::Strip::nothing), std::pair(&characters, gltf::Strip::character)})
     if (!group->empty()) gone.merge(gltf::strip_rigs(patch, opened->file, *group, remains));
   out.channels = gltf::drop_channels(patch, opened->file, gone);
   if (!write_output(patch, opened->file, work.output, out.bytes, diagnostics)) return std::nullopt;

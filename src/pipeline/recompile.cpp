@@ -64,14 +64,14 @@ bool check_tolerance(const std::string& path, const RigReport& report, double to
                      Diagnostics& diagnostics) {
   const Largest largest = largest_difference(report);
   if (largest.mm <= tolerance) return true;
-  const std::string where =
-      largest.clip.empty() ? "without a clip"
-                           : fmt::format("in clip \"{}\"", printable(largest.clip, 60));
-  diagnostics.report(codes::kMoves, Place(path),
-                     fmt::format("{} of rig \"{}\" moves by {:.4g} mm {}",
-                                 printable(largest.joint, 60), printable(report.global),
-                                 largest.mm, where),
-                     fmt::format("--tolerance allows {:.4g} mm", tolerance));
+  const std::string where = largest.clip.empty()
+                                ? "without a clip"
+                                : fmt::format("in clip \"{}\"", printable(largest.clip, 60));
+  diagnostics.report(
+      codes::kMoves, Place(path),
+      fmt::format("{} of rig \"{}\" moves by {:.4g} mm {}", printable(largest.joint, 60),
+                  printable(report.global), largest.mm, where),
+      fmt::format("--tolerance allows {:.4g} mm", tolerance));
   return false;
 }
 

@@ -74,10 +74,10 @@ void add_differences(std::string& text, const RigReport& report) {
     text += fmt::format("    motion: the same, bit for bit, at {}{} times\n", times, thinned);
     return;
   }
-  text += fmt::format(
-      "    motion: differs by at most {:.4g} mm and {:.4g} degrees at {}{} times{}\n", largest.mm,
-      largest.degrees, times, thinned,
-      largest.joint.empty() ? "" : fmt::format(" ({})", printable(largest.joint, 60)));
+  text +=
+      fmt::format("    motion: differs by at most {:.4g} mm and {:.4g} degrees at {}{} times{}\n",
+                  largest.mm, largest.degrees, times, thinned,
+                  largest.joint.empty() ? "" : fmt::format(" ({})", printable(largest.joint, 60)));
 }
 
 void write_names(json::Writer& writer, const char* key, const std::vector<std::string>& names) {
@@ -107,10 +107,11 @@ void write_comparison(json::Writer& writer, const ClipComparison& clip) {
 
 std::string as_text(const RigReport& report, bool verbose) {
   const bool other = report.template_name != report.template_before;
-  std::string text = fmt::format(
-      "  {}: {} {} -> {}{}{}\n", printable(report.global, 60), printable(report.template_before, 60),
-      report.version_before, other ? printable(report.template_name, 60) + " " : "", report.version,
-      report.why.empty() ? "" : fmt::format(" ({})", report.why));
+  std::string text =
+      fmt::format("  {}: {} {} -> {}{}{}\n", printable(report.global, 60),
+                  printable(report.template_before, 60), report.version_before,
+                  other ? printable(report.template_name, 60) + " " : "", report.version,
+                  report.why.empty() ? "" : fmt::format(" ({})", report.why));
   const CarryReport& carry = report.carry;
   add_names(text, carry.joints_added, "joint", "added", verbose);
   add_names(text, carry.joints_removed, "joint", "removed", verbose);

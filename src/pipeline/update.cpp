@@ -185,8 +185,8 @@ const std::vector<templates::Map>& Updater::maps() const {
 }
 
 bool Updater::concerns(const std::string& global) const {
-  return settings_.rigs.empty() || std::find(settings_.rigs.begin(), settings_.rigs.end(),
-                                             global) != settings_.rigs.end();
+  return settings_.rigs.empty() ||
+         std::find(settings_.rigs.begin(), settings_.rigs.end(), global) != settings_.rigs.end();
 }
 
 /// What is to be done with a rig; false where its template cannot be had.
@@ -289,7 +289,8 @@ FileResult Updater::update(const FileWork& work, Diagnostics& diagnostics) const
     const gltf::Rig& old = file->rigs()[i];
     Step step;
     const auto& made_by = old.skeleton.templates;
-    if (!find_step(work.input, old.skeleton.global, made_by, old.modules, step, reading)) return result;
+    if (!find_step(work.input, old.skeleton.global, made_by, old.modules, step, reading))
+      return result;
     if (!step.loaded) continue;
     RigReport& report = reports.emplace_back();
     const tags::TemplateReference& now = step.loaded->expanded->skeleton.templates.front();
@@ -301,8 +302,8 @@ FileResult Updater::update(const FileWork& work, Diagnostics& diagnostics) const
     // What is written names lines of the template: they are in its sources.
     Diagnostics building(step.loaded->diagnostics.sources());
     auto next = next_rig(*file, old, *step.loaded, report, building);
-    const bool built = next && file->compile(i, *std::move(next), catalogue_, settings_, report,
-                                             building);
+    const bool built =
+        next && file->compile(i, *std::move(next), catalogue_, settings_, report, building);
     diagnostics.append(building);
     if (!built) return result;
   }

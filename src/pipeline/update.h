@@ -21,7 +21,7 @@
 namespace rigc::pipeline {
 
 struct UpdateSettings : CarryOptions {
-  std::string to;                 ///< template to follow: file, NAME, NAME@VERSION; empty: the newest
+  std::string to;  ///< template to follow: file, NAME, NAME@VERSION; empty: the newest
   std::vector<std::string> rigs;  ///< global groups to update; empty: all
   bool take_skeleton = false;     ///< joints go where the new template has them
   bool verbose = false;           ///< summaries list every control and property

@@ -36,7 +36,7 @@ inline constexpr Code kModelGone{
 inline constexpr Code kNothingSet{888, Severity::error, "nothing to change",
                                   "The command was asked to change nothing."};
 
-inline constexpr const Code* kUpdateCodes[] = {&kNoRigHere,   &kWouldOrphan, &kMoves,
+inline constexpr const Code* kUpdateCodes[] = {&kNoRigHere,   &kWouldOrphan,  &kMoves,
                                                &kNoSuchRig,   &kTemplateLost, &kOlderOnly,
                                                &kSettingGone, &kModelGone,    &kNothingSet};
 

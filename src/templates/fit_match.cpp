@@ -100,8 +100,7 @@ int Matcher::take(const std::vector<std::string>& one_of, std::size_t joint, boo
 }
 
 /// The bones of a joint, or of a chain's joints, that had this key.
-void Matcher::take_known(std::size_t index, const JointKey& key,
-                         const std::map<int, int>& bones) {
+void Matcher::take_known(std::size_t index, const JointKey& key, const std::map<int, int>& bones) {
   if (result_.has(index) || result_.made[index]) return;
   JointKey at = key;
   for (;; ++at.ordinal) {

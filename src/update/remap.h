@@ -30,13 +30,13 @@ struct Property {
 struct Destination {
   enum class Kind : std::uint8_t {
     property,  ///< of a node of the new rig
-    foreign,   ///< an attribute that is not the rig's: it stays with its node, whatever that becomes
-    none       ///< the new rig has no such property: an orphan
+    foreign,  ///< an attribute that is not the rig's: it stays with its node, whatever that becomes
+    none      ///< the new rig has no such property: an orphan
   };
   Kind kind = Kind::none;
-  scene::Plug plug;                ///< of the new rig, where kind is `property`
-  std::string attribute;           ///< its name
-  double factor = 1, offset = 0;   ///< of attributes
+  scene::Plug plug;               ///< of the new rig, where kind is `property`
+  std::string attribute;          ///< its name
+  double factor = 1, offset = 0;  ///< of attributes
   bool is_identity() const { return factor == 1 && offset == 0; }
 };
 

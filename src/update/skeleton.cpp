@@ -58,8 +58,7 @@ class Keeper {
     for (const TaggedJoint& joint : old.joints) {
       const Affine local = math::compose(joint.rest);
       old_worlds_.push_back(
-          joint.parent < 0 ? local
-                           : old_worlds_[static_cast<std::size_t>(joint.parent)] * local);
+          joint.parent < 0 ? local : old_worlds_[static_cast<std::size_t>(joint.parent)] * local);
     }
   }
 
@@ -81,8 +80,7 @@ class Keeper {
     const auto spread = spread_.find(index);
     if (spread == spread_.end() && from >= 0) {
       const TaggedJoint& before = old_.joints[static_cast<std::size_t>(from)];
-      same_[index] =
-          root ? before.parent < 0 : same_[parent] && before.parent == from_[parent];
+      same_[index] = root ? before.parent < 0 : same_[parent] && before.parent == from_[parent];
       if (same_[index]) joint.rest = before.rest;
     }
     if (!same_[index] && (from >= 0 || spread != spread_.end())) {
@@ -112,7 +110,8 @@ class Keeper {
   void spread(const Run& run, const Run& before) {
     std::vector<double> lengths = {0};
     for (std::size_t i = 1; i < before.size(); ++i)
-      lengths.push_back(lengths.back() + math::length(position(before[i]) - position(before[i - 1])));
+      lengths.push_back(lengths.back() +
+                        math::length(position(before[i]) - position(before[i - 1])));
     std::size_t at = 0;
     for (std::size_t k = 0; k < run.size(); ++k) {
       const double share = static_cast<double>(k) / static_cast<double>(run.size() - 1);
@@ -148,8 +147,6 @@ std::vector<int> counterparts(const TaggedSkeleton& fresh, const TaggedSkeleton&
   return out;
 }
 
-void keep_placements(TaggedSkeleton& fresh, const TaggedSkeleton& old) {
-  Keeper(fresh, old).run();
-}
+void keep_placements(TaggedSkeleton& fresh, const TaggedSkeleton& old) { Keeper(fresh, old).run(); }
 
 }  // namespace rigc::update

@@ -10,8 +10,8 @@
 
 namespace rigc::update {
 
-/// By joint of `fresh`: the joint of `old` that it is, by key, then by what either says that it was;
-/// -1: none. No joint of `old` is given twice.
+/// By joint of `fresh`: the joint of `old` that it is, by key, then by what either says that it
+/// was; -1: none. No joint of `old` is given twice.
 std::vector<int> counterparts(const tags::TaggedSkeleton& fresh, const tags::TaggedSkeleton& old);
 
 /// Puts joints where their counterparts stand in rig space, bit for bit where the joints above them

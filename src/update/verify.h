@@ -14,7 +14,7 @@ namespace rigc::update {
 
 /// A rig with a clip as it plays on it.
 struct Player {
-  const scene::Scene* scene = nullptr;  ///< with what animators set
+  const scene::Scene* scene = nullptr;      ///< with what animators set
   const std::vector<int>* nodes = nullptr;  ///< glTF node of each scene node
   const anim::Clip* clip = nullptr;
 };

@@ -139,6 +139,14 @@ std::string numbers(const std::vector<float>& values) {
   return out;
 }
 
+std::string text_of(const scene::Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
+  if (const auto* v = std::get_if<math::Vec3>(&value))
+    return fmt::format("{} {} {}", v->x, v->y, v->z);
+  const auto& q = std::get<math::Quat>(value);
+  return fmt::format("{} {} {} {}", q.x, q.y, q.z, q.w);
+}
+
 std::string path_name(const anim::Channel& channel) {
   if (channel.path == Path::attribute) return channel.attribute;
   return channel.path == Path::rotation ? "rotation"
@@ -257,9 +265,9 @@ double motion_difference(const Shot& a, const Shot& b, const std::string& global
       if (found == q.end()) continue;
       if (exact && !(world == found->second)) *exact = false;
       largest = std::max(largest, math::length(world.origin - found->second.origin) / height);
-      for (const math::Vec3& d : {world.linear.x - found->second.linear.x,
-                                  world.linear.y - found->second.linear.y,
-                                  world.linear.z - found->second.linear.z})
+      for (const math::Vec3& d :
+           {world.linear.x - found->second.linear.x, world.linear.y - found->second.linear.y,
+            world.linear.z - found->second.linear.z})
         largest = std::max(largest, math::length(d) * 0.1);
     }
   };
@@ -282,32 +290,32 @@ std::vector<std::string> keys_of(const Shot& shot) {
     for (const gltf::Orphan& orphan : rig.orphans) {
       const std::string owner = with_rig(orphan.identity, rig);
       owners[orphan.node] = owner;
-      if (orphan.local.translation != orphan.rest.translation)
-        lines.push_back(fmt::format("{} value translation", owner));
-      if (orphan.local.rotation != orphan.rest.rotation)
-        lines.push_back(fmt::format("{} value rotation", owner));
-      if (orphan.local.scale != orphan.rest.scale)
-        lines.push_back(fmt::format("{} value scale", owner));
+      const auto add = [&](const char* name, const scene::Value& value, const scene::Value& rest) {
+        if (!(value == rest))
+          lines.push_back(fmt::format("{} value {} {}", owner, name, text_of(value)));
+      };
+      add("translation", orphan.local.translation, orphan.rest.translation);
+      add("rotation", orphan.local.rotation, orphan.rest.rotation);
+      add("scale", orphan.local.scale, orphan.rest.scale);
       for (const scene::UserAttribute& attribute : orphan.attributes)
         if (attribute.value != attribute.initial)
           lines.push_back(fmt::format("{} value {} {}", owner, attribute.name, attribute.value));
     }
     for (const gltf::Posed& posed : rig.posed) {
       const std::string owner = with_rig(rig.scene[posed.plug.node].identity, rig);
-      const scene::Value value = rig.scene.value(posed.plug);
-      const auto* number = std::get_if<double>(&value);
-      lines.push_back(fmt::format("{} value {}{}", owner, rig.scene.plug_name(posed.plug),
-                                  number ? fmt::format(" {}", *number) : ""));
-      if (lines.back().ends_with("translate")) lines.back() += "ion";
+      const std::string name = rig.scene.plug_name(posed.plug);
+      lines.push_back(fmt::format("{} value {} {}", owner,
+                                  name == "translate" ? "translation" : name,
+                                  text_of(rig.scene.value(posed.plug))));
     }
   }
   for (const anim::Clip& clip : shot.clips) {
     for (const anim::Channel& channel : clip.channels) {
       const auto owner = owners.find(channel.node);
-      lines.push_back(fmt::format(
-          "{} {} {} {} at {}: {}", owner == owners.end() ? "?" : owner->second, clip.name,
-          path_name(channel), static_cast<int>(channel.curve.interpolation),
-          numbers(*channel.curve.times), numbers(channel.curve.values)));
+      lines.push_back(fmt::format("{} {} {} {} at {}: {}",
+                                  owner == owners.end() ? "?" : owner->second, clip.name,
+                                  path_name(channel), static_cast<int>(channel.curve.interpolation),
+                                  numbers(*channel.curve.times), numbers(channel.curve.values)));
     }
   }
   std::sort(lines.begin(), lines.end());

@@ -16,6 +16,16 @@ namespace {
 
 using test::Shot;
 
+/// Lines that only one of two lists has.
+std::string differences(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  std::string out;
+  for (const std::string& line : a)
+    if (std::find(b.begin(), b.end(), line) == b.end()) out += "- " + line.substr(0, 150) + "\n";
+  for (const std::string& line : b)
+    if (std::find(a.begin(), a.end(), line) == a.end()) out += "+ " + line.substr(0, 150) + "\n";
+  return out;
+}
+
 /// A limb of three joints with FK controls; `body` are further tags of the first.
 std::string limb(int version, const std::string& more = "") {
   return fmt::format(R"(rigc: 1
@@ -36,7 +46,7 @@ joints:
     label: shoulder
     tags:
       - command: fk_chain
-        with: {{start: "arm[START]", end: "arm[END]", size: 0.2}}
+        with: {{joints: "arm[*]", size: 0.2}}
   - name: lower
     parent: upper
     at: [0.5, 1, -0.1]
@@ -96,7 +106,7 @@ TEST_CASE("update: a new version with the same content keeps every key and plays
   s.update(limb(2));
   CHECK(s.result.outcome == pipeline::FileResult::Outcome::changed);
   CHECK(s.after.rigs.front().skeleton.templates.front().version == 2);
-  CHECK(test::keys_of(s.after) == test::keys_of(s.before));
+  CHECK(differences(test::keys_of(s.before), test::keys_of(s.after)) == "");
   bool exact = false;
   CHECK(test::motion_difference(s.before, s.after, "", &exact) == 0);
   CHECK(exact);
@@ -113,10 +123,10 @@ TEST_CASE("update: keys of a removed control become orphans and come back with i
   without.erase(from, without.find("  - name: lower") - from);
   s.update(without);
   CHECK(s.orphans() == 3);
-  CHECK(test::keys_of(s.after) == test::keys_of(original));
+  CHECK(differences(test::keys_of(original), test::keys_of(s.after)) == "");
   s.update(limb(3));
   CHECK(s.orphans() == 0);
-  CHECK(test::keys_of(s.after) == test::keys_of(original));
+  CHECK(differences(test::keys_of(original), test::keys_of(s.after)) == "");
   bool exact = false;
   CHECK(test::motion_difference(original, s.after, "", &exact) == 0);
   CHECK(exact);
