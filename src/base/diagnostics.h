@@ -58,6 +58,9 @@ class Diagnostics {
 
   void report(const Code& code, Place place, std::string message, std::string hint = {});
 
+  /// Reports again what another has: its spans then point into sources of this one.
+  void append(const Diagnostics& other);
+
   Sources& sources() { return *sources_; }
   const Sources& sources() const { return *sources_; }
   /// In the order reported. Beyond 10,000 of a severity they are only counted: a hostile file can

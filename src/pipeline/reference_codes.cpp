@@ -15,6 +15,7 @@
 #include "pipeline/batch_codes.h"
 #include "pipeline/codes.h"
 #include "pipeline/reference.h"
+#include "pipeline/update_codes.h"
 #include "processor/codes.h"
 #include "scene/codes.h"
 #include "selector/codes.h"
@@ -48,6 +49,7 @@ std::vector<const Code*> all_codes() {
   add(gltf::codes::kGltfCodes, codes);
   add(gltf::codes::kRigCodes, codes);
   add(pipeline::codes::kPipelineCodes, codes);
+  add(pipeline::codes::kUpdateCodes, codes);
   add(pipeline::codes::kBatchCodes, codes);
   std::sort(codes.begin(), codes.end(),
             [](const Code* a, const Code* b) { return a->number < b->number; });
