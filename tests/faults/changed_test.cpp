@@ -22,6 +22,7 @@ std::vector<std::pair<const Command*, std::string>> replacements() {
     if (command.name == "append") found.push_back({&command, "b.glb"});
     if (command.name == "bake_glb") found.push_back({&command, "a.glb"});
     if (command.name == "bake_gltf") found.push_back({&command, "a.gltf"});
+    if (command.name.starts_with("update")) found.push_back({&command, command.target});
   }
   return found;
 }
