@@ -36,6 +36,7 @@ struct Session {
   Diagnostics diagnostics;
   bool json = false;
   std::string out;    ///< for stdout, printed when the command ends
+  int status = 0;     ///< exit status where no error was reported
   std::string notes;  ///< for stderr after the diagnostics: timings
 };
 
@@ -70,6 +71,7 @@ std::unique_ptr<Command> make_modules();
 std::unique_ptr<Command> make_plan();
 std::unique_ptr<Command> make_query();
 std::unique_ptr<Command> make_schema();
+std::unique_ptr<Command> make_status();
 
 /// The table of commands, in the order of the help.
 std::vector<std::unique_ptr<Command>> commands();

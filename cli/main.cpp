@@ -70,7 +70,7 @@ int finish(const Session& session) {
   print(stdout, session.out);
   const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   if (session.diagnostics.file_system_refused() || !written) return 3;
-  return session.diagnostics.ok() ? 0 : 1;
+  return session.diagnostics.ok() ? session.status : 1;
 }
 
 /// A first word that is no command: said so, with the nearest one, before the parser speaks of

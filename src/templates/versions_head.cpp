@@ -165,4 +165,24 @@ std::optional<Head> scan_head(std::string_view text) {
   return scan.run() ? scan.take_head() : read_whole(text);
 }
 
+std::vector<std::string> scan_parts(std::string_view text) {
+  constexpr std::string_view kKey = "template:", kBefore = " \n{,-\t", kBehind = " \t\r\n,}#";
+  const auto in_comment = [&](std::size_t at) {
+    const std::size_t line = text.rfind('\n', at) + 1;  // npos + 1: the first line
+    return trim(text.substr(line, at - line)).starts_with('#');
+  };
+  std::vector<std::string> found;
+  for (std::size_t at = text.find(kKey); at != std::string_view::npos;) {
+    const bool is_key = at > 0 && kBefore.find(text[at - 1]) != std::string_view::npos;
+    const std::size_t line_end = std::min(text.find('\n', at), text.size());
+    std::string_view value = trim(text.substr(at + kKey.size(), line_end - at - kKey.size()));
+    value = value.substr(0, value.find_first_of(kBehind));
+    if (value.size() > 1 && (value.front() == '"' || value.front() == '\''))
+      value = value.substr(1, value.size() - 2);
+    if (is_key && !value.empty() && !in_comment(at)) found.emplace_back(value);
+    at = text.find(kKey, at + kKey.size());
+  }
+  return found;
+}
+
 }  // namespace rigc::templates
