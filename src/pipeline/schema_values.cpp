@@ -248,10 +248,20 @@ std::vector<std::string> earlier_names(const Descriptor& descriptor, const Param
   return names;
 }
 
+/// Whether a template that is pinned to an earlier version may leave it out.
+bool had_default(const Descriptor& descriptor, const Parameter& parameter) {
+  return std::any_of(descriptor.changes.begin(), descriptor.changes.end(),
+                     [&](const catalog::Change& change) {
+                       return change.parameter == parameter.name && change.default_was;
+                     });
+}
+
 void write_required(json::Writer& w, const Descriptor& descriptor) {
   w.key("required").begin_array();
   for (const Parameter& parameter : descriptor.parameters)
-    if (parameter.required && earlier_names(descriptor, parameter).empty()) w.value(parameter.name);
+    if (parameter.required && earlier_names(descriptor, parameter).empty() &&
+        !had_default(descriptor, parameter))
+      w.value(parameter.name);
   w.end_array();
 }
 
