@@ -265,6 +265,18 @@ void write_required(json::Writer& w, const Descriptor& descriptor) {
   w.end_array();
 }
 
+/// A template that is pinned to an earlier version writes numbers of that version's unit and range:
+/// the editor does not know which counts.
+Parameter without_stale_range(const Descriptor& descriptor, Parameter parameter) {
+  for (const catalog::Change& change : descriptor.changes) {
+    if (change.parameter != parameter.name) continue;
+    const bool other_unit = change.factor != 1 || change.offset != 0;
+    if (other_unit || change.min_was) parameter.min.reset();
+    if (other_unit || change.max_was) parameter.max.reset();
+  }
+  return parameter;
+}
+
 }  // namespace
 
 void write_types(json::Writer& w, std::initializer_list<const char*> types) {
@@ -300,7 +312,8 @@ void write_arguments(json::Writer& w, const Descriptor& descriptor) {
   else
     write_types(w, {"object", "null"});
   w.member("additionalProperties", false).key("properties").begin_object();
-  for (const Parameter& parameter : descriptor.parameters) {
+  for (const Parameter& declared : descriptor.parameters) {
+    const Parameter parameter = without_stale_range(descriptor, declared);
     write_parameter(w, parameter.name, parameter);
     for (const std::string& name : earlier_names(descriptor, parameter))
       if (!descriptor.find(name)) write_parameter(w, name, parameter);
