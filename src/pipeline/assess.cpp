@@ -16,6 +16,7 @@ using templates::TemplateVersion;
 
 constexpr std::uint64_t kMostBytes = 4u << 20;
 constexpr std::size_t kMostParts = 4096;
+constexpr std::size_t kMostReasons = 5;
 
 /// A template file and its text; nothing where it is none.
 std::optional<std::pair<TemplateVersion, std::string>> read_part(const std::string& path) {
@@ -60,7 +61,13 @@ class Judge {
       for (std::size_t i = 1; i < out_.templates.size(); ++i) judge_part(out_.templates[i], moves);
       for (const ModuleStatus& module : out_.modules) judge_module(module, moves);
     }
-    out_.reason = join(out_.action == Action::cannot ? stops_ : reasons_, "; ");
+    std::vector<std::string>& told = out_.action == Action::cannot ? stops_ : reasons_;
+    if (told.size() > kMostReasons) {
+      const std::size_t more = told.size() - kMostReasons;
+      told.resize(kMostReasons);
+      told.push_back(fmt::format("and {} more", more));
+    }
+    out_.reason = join(told, "; ");
   }
 
  private:
@@ -143,7 +150,8 @@ Assessment Installed::assess(const std::vector<tags::TemplateReference>& templat
   Assessment out;
   for (const tags::TemplateReference& made : templates) {
     const bool main = out.templates.empty();
-    out.templates.push_back(main ? main_status(made) : part_status(made, out.templates.front()));
+    out.templates.push_back(main ? main_status(made)
+                                 : part_status(made, out.templates.front().path));
   }
   for (const auto& [name, version] : modules) out.modules.push_back(module_status(name, version));
   if (!templates.empty())
@@ -159,20 +167,15 @@ TemplateStatus Installed::main_status(const tags::TemplateReference& made) const
 }
 
 TemplateStatus Installed::part_status(const tags::TemplateReference& made,
-                                      const TemplateStatus& main) const {
+                                      const std::string& main) const {
   const TemplateVersion* best = nullptr;
-  for (const PartFile& part : parts_of(main.path)) {
+  for (const PartFile& part : parts_of(main)) {
     if (part.reference != made.file) continue;
     // Parts of one reference may lie in several folders: first the same, then one of the same name.
     if (part.file.digest == made.digest) return status_of(made, part.file);
     if (!best || (best->name != made.name && part.file.name == made.name)) best = &part.file;
   }
-  if (best) return status_of(made, *best);
-  if (main.path.empty() || main.state == TemplateState::newer) return status_of(made, {});
-  // The references are written in a way that is not seen without reading the template.
-  const auto path = templates::part_file(made.file, folder_of(main.path), folders_);
-  const auto found = path ? read_part(*path) : std::nullopt;
-  return status_of(made, found ? found->first : TemplateVersion());
+  return status_of(made, best ? *best : TemplateVersion());
 }
 
 const std::vector<Installed::PartFile>& Installed::parts_of(const std::string& main) const {

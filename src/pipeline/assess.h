@@ -88,7 +88,7 @@ class Installed {
   };
 
   TemplateStatus main_status(const tags::TemplateReference& made) const;
-  TemplateStatus part_status(const tags::TemplateReference& made, const TemplateStatus& main) const;
+  TemplateStatus part_status(const tags::TemplateReference& made, const std::string& main) const;
   const std::vector<PartFile>& parts_of(const std::string& main) const;
   void add_parts(const std::string& outer, std::set<std::string>& seen,
                  std::vector<PartFile>& out) const;

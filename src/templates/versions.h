@@ -24,8 +24,8 @@ struct Head {
 /// template. What usual templates have is found line by line, everything else by the YAML reader.
 std::optional<Head> scan_head(std::string_view text);
 
-/// What follows a key `template` anywhere in the text, in order: every reference to a part that is
-/// written as people write it, and perhaps words that are none.
+/// The references of a template's text to parts, in order, without reading the rest of it where it
+/// is written as people write it; perhaps also words that are none.
 std::vector<std::string> scan_parts(std::string_view text);
 
 /// One template file.

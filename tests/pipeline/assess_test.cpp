@@ -158,6 +158,11 @@ TEST_CASE("pipeline assess: what cannot be updated says why") {
   CHECK(told(shop.assess(references)) == "cannot | part parts/leg is not found");
   references[1].file = "../../etc/passwd";
   CHECK(shop.assess(references).action == Action::cannot);
+  references.resize(5000, references[1]);
+  const auto absurd = shop.assess(references);
+  CHECK(absurd.templates.size() == 5000);
+  CHECK(absurd.reason.size() < 500);
+  CHECK(absurd.reason.ends_with("; and 4993 more"));
 }
 
 TEST_CASE("pipeline assess: forks are told, not followed") {

@@ -187,11 +187,16 @@ TEST_CASE("templates versions: what --to names") {
 }
 
 TEST_CASE("templates versions: references to parts are found without reading the template") {
-  CHECK(scan_parts("rigc: 1\nparts:\n  - {template: parts/arm, as: l}\n  - template: 'b'  # b\n"
-                   "    as: template\n  - { as: c,template: \"c\"}\n  - {as: d, template: d}\r\n"
-                   "# my_template: no\n  - template:\n") ==
-        std::vector<std::string>{"parts/arm", "b", "c", "d"});
+  using Names = std::vector<std::string>;
+  CHECK(scan_parts("rigc: 1\nparts:\n  - {template: parts/arm, as: l}\n  - template: b  # b\n"
+                   "    as: template\n  - { as: c,template: c}\n  - {as: d, template: d}\r\n"
+                   "# - template: no\n  - my_template: no\n") == Names{"parts/arm", "b", "c", "d"});
   CHECK(scan_parts("template: a").empty());  // at the top level it is no part's
+  CHECK(scan_parts("rigc: 1\nparts: [{template: 'a b'}, {template: b}]\n") == Names{"a b", "b"});
+  CHECK(scan_parts("parts: [{\"template\": a}]\n") == Names{"a"});
+  CHECK(scan_parts("description: &a arm\nparts:\n- template: *a\n- template:\n    b\n") ==
+        Names{"arm", "b"});
+  CHECK(scan_parts("parts: [{template: 'a}]\n").empty());
   Diagnostics diagnostics;
   Library library({template_folder()}, catalogue());
   const Versions versions({template_folder()});
