@@ -69,9 +69,14 @@ std::unique_ptr<Command> make_inspect();
 std::unique_ptr<Command> make_map();
 std::unique_ptr<Command> make_modules();
 std::unique_ptr<Command> make_plan();
+std::unique_ptr<Command> make_prune();
 std::unique_ptr<Command> make_query();
+std::unique_ptr<Command> make_rebuild();
 std::unique_ptr<Command> make_schema();
 std::unique_ptr<Command> make_status();
+std::unique_ptr<Command> make_strip();
+std::unique_ptr<Command> make_unbuild();
+std::unique_ptr<Command> make_update();
 
 /// The table of commands, in the order of the help.
 std::vector<std::unique_ptr<Command>> commands();

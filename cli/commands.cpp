@@ -7,6 +7,11 @@ namespace rigc::cli {
 std::vector<std::unique_ptr<Command>> commands() {
   std::vector<std::unique_ptr<Command>> table;
   table.push_back(make_build());
+  table.push_back(make_update());
+  table.push_back(make_rebuild());
+  table.push_back(make_unbuild());
+  table.push_back(make_strip());
+  table.push_back(make_prune());
   table.push_back(make_map());
   table.push_back(make_check());
   table.push_back(make_plan());

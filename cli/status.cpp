@@ -20,7 +20,8 @@ class Status final : public Command {
             "rigc status shots/ --templates studio/templates --exit-code || echo 'updates wait'"};
   }
   void declare(Options& options) override {
-    options.positionals("FILE|DIR", request_.inputs, "Rig files, or folders of them");
+    options.positionals("FILE|DIR|'PATTERN'|@LIST", request_.inputs,
+                        "Rig files, folders of them, patterns, lists of paths");
     declare_paths(options, request_.paths);
     options.number("--jobs", "N", jobs_, "Files at a time (default: one for each processor)");
     options.flag("--exit-code", exit_code_, "Exit with 1 if an update would change any rig");

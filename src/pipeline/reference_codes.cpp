@@ -12,8 +12,10 @@
 #include "gltf/codes.h"
 #include "gltf/rig_codes.h"
 #include "modules/codes.h"
+#include "pipeline/batch_codes.h"
 #include "pipeline/codes.h"
 #include "pipeline/reference.h"
+#include "pipeline/update_codes.h"
 #include "processor/codes.h"
 #include "scene/codes.h"
 #include "selector/codes.h"
@@ -47,6 +49,8 @@ std::vector<const Code*> all_codes() {
   add(gltf::codes::kGltfCodes, codes);
   add(gltf::codes::kRigCodes, codes);
   add(pipeline::codes::kPipelineCodes, codes);
+  add(pipeline::codes::kUpdateCodes, codes);
+  add(pipeline::codes::kBatchCodes, codes);
   std::sort(codes.begin(), codes.end(),
             [](const Code* a, const Code* b) { return a->number < b->number; });
   return codes;

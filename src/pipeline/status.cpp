@@ -5,42 +5,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <filesystem>
 #include <thread>
 
-#include "base/files.h"
-#include "pipeline/check_kinds.h"
+#include "pipeline/batch_inputs.h"
 #include "templates/library.h"
 
 namespace rigc::pipeline {
 namespace {
 
-constexpr int kMostDeep = 64;
 constexpr std::size_t kMostJobs = 64;
-
-void add_files(const std::string& folder, int depth, std::vector<std::string>& found) {
-  for (const std::string& name : list_folder(folder)) {
-    const std::string path = join_path(folder, name);
-    std::error_code ignored;
-    if (name.starts_with('.')) continue;
-    if (!folder_exists(path)) {
-      if (is_gltf(path)) found.push_back(path);
-    } else if (depth < kMostDeep && !std::filesystem::is_symlink(path, ignored)) {
-      add_files(path, depth + 1, found);
-    }
-  }
-}
-
-std::vector<std::string> files_of(const std::vector<std::string>& inputs) {
-  std::vector<std::string> files;
-  for (const std::string& input : inputs) {
-    if (folder_exists(input))
-      add_files(input, 0, files);
-    else
-      files.push_back(input);
-  }
-  return files;
-}
 
 void read_file_status(const Installed& installed, FileStatus& out, Diagnostics& diagnostics) {
   auto rigs = gltf::read_rig_summaries(out.file, diagnostics);
@@ -62,12 +35,13 @@ std::size_t job_count(std::size_t wanted, std::size_t files) {
 std::optional<std::vector<FileStatus>> status(const StatusRequest& request,
                                               Diagnostics& diagnostics) {
   catalog::Catalogue catalogue;
-  if (!add_modules(request.paths, catalogue, diagnostics)) return std::nullopt;
+  auto inputs = find_inputs(request.inputs, {}, diagnostics);
+  if (!add_modules(request.paths, catalogue, diagnostics) || !inputs) return std::nullopt;
   const Installed installed(templates::template_folders(request.paths.templates), catalogue);
   installed.versions().report_twins(diagnostics);
 
   std::vector<FileStatus> files;
-  for (std::string& file : files_of(request.inputs)) files.push_back({std::move(file), false, {}});
+  for (BatchInput& input : *inputs) files.push_back({std::move(input.path), false, {}});
   std::vector<Diagnostics> reported(files.size());
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {

@@ -16,7 +16,7 @@
 namespace rigc::pipeline {
 
 struct StatusRequest {
-  std::vector<std::string> inputs;  ///< files and folders
+  std::vector<std::string> inputs;  ///< FILE, DIR, 'PATTERN', @LIST: see find_inputs()
   std::size_t jobs = 0;             ///< files at a time; 0: as many as the machine has processors
   Paths paths;
 };
@@ -32,7 +32,7 @@ struct FileStatus {
   std::vector<RigStatus> rigs;
 };
 
-/// In the order of the inputs, a folder's files sorted by path; nothing where modules have errors.
+/// In the order of the inputs; nothing where they or modules have errors.
 std::optional<std::vector<FileStatus>> status(const StatusRequest& request,
                                               Diagnostics& diagnostics);
 
