@@ -73,6 +73,7 @@ std::unique_ptr<Command> make_prune();
 std::unique_ptr<Command> make_query();
 std::unique_ptr<Command> make_rebuild();
 std::unique_ptr<Command> make_schema();
+std::unique_ptr<Command> make_status();
 std::unique_ptr<Command> make_strip();
 std::unique_ptr<Command> make_unbuild();
 std::unique_ptr<Command> make_update();

@@ -15,6 +15,7 @@ std::vector<std::unique_ptr<Command>> commands() {
   table.push_back(make_map());
   table.push_back(make_check());
   table.push_back(make_plan());
+  table.push_back(make_status());
   table.push_back(make_inspect());
   table.push_back(make_query());
   table.push_back(make_bake());

@@ -86,7 +86,8 @@ class Expander {
   // expand_tags.cpp
   void add_tags(RawJoint& joint);
   void add_command(RawJoint& joint, const Command& command, int feature);
-  void bind_value(const Use& use, const catalog::Parameter& parameter, tags::Argument& argument);
+  void bind_value(const Use& use, const catalog::Descriptor& descriptor, int pinned,
+                  const catalog::Parameter& parameter, tags::Argument& argument);
   void rename(int use, const catalog::Parameter& parameter, Literal& value);
   void collect_features();
   void check_declared_outside(const Use& use, const tags::FeatureTag& tag);
