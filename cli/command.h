@@ -66,9 +66,11 @@ std::unique_ptr<Command> make_completions();
 std::unique_ptr<Command> make_docs();
 std::unique_ptr<Command> make_inspect();
 std::unique_ptr<Command> make_map();
+std::unique_ptr<Command> make_merge();
 std::unique_ptr<Command> make_modules();
 std::unique_ptr<Command> make_plan();
 std::unique_ptr<Command> make_query();
+std::unique_ptr<Command> make_rename();
 std::unique_ptr<Command> make_schema();
 
 /// The table of commands, in the order of the help.
