@@ -40,9 +40,9 @@ class Merge final : public Command {
       session.out = w.member("clips", merged.clips).end_object().take() + "\n";
       return;
     }
-    session.out = fmt::format("{}: {} rigs, {} meshes, {} clips, {} KB\n", printable(out_),
-                              merged.rigs, merged.meshes, merged.clips,
-                              (result->bytes + 1023) / 1024);
+    session.out =
+        fmt::format("{}: {} rigs, {} meshes, {} clips, {} KB\n", printable(out_), merged.rigs,
+                    merged.meshes, merged.clips, (result->bytes + 1023) / 1024);
   }
 
  private:

@@ -41,7 +41,8 @@ std::optional<std::vector<Source>> read_sources(const std::deque<File>& files,
 }
 
 /// Rigs are told apart by their global groups, and there is an end to how many can be read again.
-void check_rigs(const std::vector<Source>& sources, Diagnostics& diagnostics) {
+bool check_rigs(const std::vector<Source>& sources, Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.errors();
   std::map<std::string, const File*> globals;
   std::size_t rigs = 0, nodes = 0;
   for (const Source& source : sources) {
@@ -61,6 +62,7 @@ void check_rigs(const std::vector<Source>& sources, Diagnostics& diagnostics) {
   if (rigs > kMostRigs || nodes > kMostNodes)
     diagnostics.report(codes::kRigTooLarge, Place(sources.front().file.path),
                        fmt::format("together the files have {} rigs with {} nodes", rigs, nodes));
+  return diagnostics.errors() == errors;
 }
 
 /// Keeps the ids that no file before has; others get the least that is free.
@@ -96,9 +98,7 @@ std::size_t rig_count(const std::vector<Source>& sources) {
 std::optional<Merged> merge(Patch& patch, const std::deque<File>& files,
                             const MergeOptions& options, Diagnostics& diagnostics) {
   const auto sources = read_sources(files, diagnostics);
-  if (!sources) return std::nullopt;
-  check_rigs(*sources, diagnostics);
-  if (!diagnostics.ok()) return std::nullopt;
+  if (!sources || !check_rigs(*sources, diagnostics)) return std::nullopt;
 
   Merged merged;
   Ids ids;

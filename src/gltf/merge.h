@@ -14,7 +14,8 @@
 namespace rigc::gltf {
 
 struct MergeOptions {
-  bool binary = true;       ///< the output is a .glb: buffer 0 of every file goes into BIN
+  /// The output is a .glb: buffer 0 of every file, and those in data URIs, go into BIN.
+  bool binary = true;
   bool join_clips = false;  ///< clips of one name become one clip
 };
 
@@ -27,10 +28,10 @@ struct Merged {
 };
 
 /// Appends all that `files` but the first have to `patch`, which is one of the first. All files
-/// must live until the patch is finished. Roots of the others' default scenes join the first file's
-/// default scene; their further scenes are appended. A rig whose id is taken gets another.
-/// Errors: an extension that may hold unknown indices, two rigs with one global group, a root
-/// extension that only one file can have.
+/// must live, and the patch stay where it is, until it is finished. Roots of the others' default
+/// scenes join the first file's default scene; their further scenes are appended. A rig whose id is
+/// taken gets another. Errors: an extension that may hold unknown indices, two rigs with one global
+/// group, a root extension that only one file can have.
 std::optional<Merged> merge(Patch& patch, const std::deque<File>& files,
                             const MergeOptions& options, Diagnostics& diagnostics);
 

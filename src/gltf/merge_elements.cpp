@@ -141,8 +141,7 @@ void write_elements(Patch& patch, const File& file, const Places& places, const 
       if (place < 0) continue;
       const bool joins_clip = array == "animations" && joins.clips.count(i) != 0;
       if (joins_clip)
-        patch.replace(array, place,
-                      joined_clip(patch.element(array, place), elements[i], edits));
+        patch.replace(array, place, joined_clip(patch.element(array, place), elements[i], edits));
       else if (array != "scenes" || static_cast<int>(i) != joins.scene || joins.scene_comes)
         patch.replace(array, place, edits.text(elements[i]));
     }

@@ -15,7 +15,7 @@ namespace rigc::gltf {
 /// Elements of the file that join one that is there already.
 struct Joins {
   struct Join {
-    int to = -1;              ///< animation of the merged file
+    int to = -1;               ///< animation of the merged file
     std::size_t samplers = 0;  ///< that it had before
   };
   std::map<std::size_t, Join> clips;  ///< by animation of the file
@@ -31,9 +31,8 @@ void shift_samplers(const File& file, const Joins& joins, Edits& edits);
 void write_elements(Patch& patch, const File& file, const Places& places, const Joins& joins,
                     const Edits& edits);
 
-/// Buffer views, and the bytes of the buffer that becomes a part of the merged file's.
-void write_views(Patch& patch, const File& file, const Places& places,
-                 const MergeOptions& options);
+/// Buffer views, and the bytes of buffers that become a part of the merged file's.
+void write_views(Patch& patch, const File& file, const Places& places, const MergeOptions& options);
 /// Whether the bytes of buffer `index` become a part of the merged file's buffer.
 bool is_taken_in(const File& file, std::size_t index, const MergeOptions& options);
 /// Files beside the file that its buffers and images go on naming.

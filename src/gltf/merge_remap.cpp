@@ -99,8 +99,8 @@ class Remap {
     if (now)
       edits_.replace(value, json::quote(*now));
     else
-      fail(value, fmt::format("{} leads to nothing that a merge can follow",
-                              printable(value.text(), 80)));
+      fail(value,
+           fmt::format("{} leads to nothing that a merge can follow", printable(value.text(), 80)));
   }
 
   void renumber(const Value& mark) {
@@ -132,10 +132,10 @@ bool check_extensions(const File& file, Diagnostics& diagnostics) {
   std::set<std::string, std::less<>> unknown;
   const auto refuse = [&](std::string_view name, const Value& at) {
     if (is_known_extension(name) || !unknown.emplace(name).second) return;
-    diagnostics.report(codes::kMergeExtension, Place(file.path, at.pointer()),
-                       fmt::format("\"{}\" may hold indices that rigc does not know",
-                                   printable(name, 80)),
-                       "name this file first, or take the extension out of it");
+    diagnostics.report(
+        codes::kMergeExtension, Place(file.path, at.pointer()),
+        fmt::format("\"{}\" may hold indices that rigc does not know", printable(name, 80)),
+        "name this file first, or take the extension out of it");
   };
   walk_file(file, [&](std::string_view name, const Value& content, std::string_view) {
     refuse(name, content);
@@ -165,8 +165,8 @@ std::optional<std::string> remapped_pointer(const std::string& pointer, const Pl
   const std::size_t at = extension ? 4 : 2;  // of the index
   std::string array(steps[1]);
   if (extension && steps.size() > 3) array = std::string(steps[2]) + "." + std::string(steps[3]);
-  const auto united = extension && steps.size() > 2 ? united_arrays(steps[2])
-                                                    : std::vector<std::string_view>();
+  const auto united =
+      extension && steps.size() > 2 ? united_arrays(steps[2]) : std::vector<std::string_view>();
   // What only one file can have moves as it is.
   if (extension && steps.size() > 2 && united.empty() && is_known_extension(steps[2]))
     return pointer;

@@ -52,8 +52,8 @@ class RigRemap {
 
   void set_runs(const Value& runs, const std::string& array) {
     const auto found = places_.arrays.find(array);
-    const auto size = static_cast<std::int64_t>(
-        found == places_.arrays.end() ? 0 : found->second.size());
+    const auto size =
+        static_cast<std::int64_t>(found == places_.arrays.end() ? 0 : found->second.size());
     std::vector<int> indices;
     const auto numbers = runs.items();
     for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) {

@@ -28,17 +28,17 @@ void report_left_out(const Patch& patch, const File& file, Diagnostics& diagnost
   const Value root = file.root();
   const json::Document asset = parsed(patch.root_member("asset"));
   const auto report = [&](const std::string& pointer, std::string_view what) {
-    diagnostics.report(codes::kMergeLeftOut, Place(file.path, pointer),
-                       fmt::format("{} of {} does not come into the merged file", what,
-                                   printable(file.path)));
+    diagnostics.report(
+        codes::kMergeLeftOut, Place(file.path, pointer),
+        fmt::format("{} of {} does not come into the merged file", what, printable(file.path)));
   };
   for (const char* member : {"copyright", "extras", "extensions"}) {
     const Value mine = root["asset"][member];
     if (mine && mine.text() != asset.root()[member].text())
       report(mine.pointer(), fmt::format("\"asset.{}\"", member));
   }
-  static constexpr std::string_view kKnown[] = {"asset", "extensions", "extensionsRequired",
-                                                "extensionsUsed", "extras", "scene"};
+  static constexpr std::string_view kKnown[] = {
+      "asset", "extensions", "extensionsRequired", "extensionsUsed", "extras", "scene"};
   for (const auto& [name, value] : root.members()) {
     const auto has = [&, key = std::string_view(name)](const auto& list) {
       return std::find(std::begin(list), std::end(list), key) != std::end(list);
@@ -145,8 +145,8 @@ class RootExtensions {
       const Value other = there.root()[key];
       const bool list = std::find(united.begin(), united.end(), key) != united.end();
       if (other && !list && other.text() != edits_.text(value))
-        return refuse(name, value, fmt::format("\"{}\" differs between the files",
-                                               printable(key, 60)), "");
+        return refuse(name, value,
+                      fmt::format("\"{}\" differs between the files", printable(key, 60)), "");
       if (!other) {
         whole.set(key, edits_.text(value));
       } else if (list) {

@@ -11,8 +11,8 @@ namespace rigc::gltf {
 
 /// The top-level arrays, in the order in which a merge appends to them.
 inline constexpr std::string_view kTopLevel[] = {
-    "buffers",   "bufferViews", "accessors", "images", "samplers", "textures", "materials",
-    "meshes",    "cameras",     "nodes",     "skins",  "scenes",   "animations"};
+    "buffers", "bufferViews", "accessors", "images", "samplers", "textures",  "materials",
+    "meshes",  "cameras",     "nodes",     "skins",  "scenes",   "animations"};
 
 /// A place that holds an index.
 struct IndexRule {

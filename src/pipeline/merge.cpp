@@ -33,8 +33,8 @@ std::optional<MergedFile> merge_files(const MergeRequest& request, const std::st
   const auto files = open_all(request.files, diagnostics);
   if (!files) return std::nullopt;
   gltf::Patch patch(files->front());
-  auto merged = gltf::merge(patch, *files, {!ends_with(out, ".gltf"), request.join_clips},
-                            diagnostics);
+  auto merged =
+      gltf::merge(patch, *files, {!ends_with(out, ".gltf"), request.join_clips}, diagnostics);
   if (!merged) return std::nullopt;
   std::vector<Beside> beside;
   for (std::size_t i = 1; i < files->size(); ++i)

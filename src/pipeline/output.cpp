@@ -114,8 +114,7 @@ bool check_output_name(const std::string& out, Diagnostics& diagnostics) {
 }
 
 bool write_output(gltf::Patch& patch, const gltf::File& file, const std::string& out,
-                  std::uint64_t& bytes, Diagnostics& diagnostics,
-                  const std::vector<Beside>& more) {
+                  std::uint64_t& bytes, Diagnostics& diagnostics, const std::vector<Beside>& more) {
   const auto output = patch.finish(!ends_with(out, ".gltf"), diagnostics);
   if (!output) return false;
   Copies copies(out, diagnostics);
