@@ -18,7 +18,8 @@ class Merge final : public Command {
   }
   std::vector<std::string> examples() const override {
     return {"rigc merge hero.glb prop.glb -o shot.glb",
-            "rigc merge walk.glb run.glb -o clips.glb --join-clips"};
+            "rigc merge walk.glb run.glb -o clips.glb --join-clips",
+            "rigc merge hero.glb arm.glb --into hero --attach arm_l=torso.chest -o hero2.glb"};
   }
   void declare(Options& options) override {
     options.positionals("FILE", request_.files,
@@ -27,6 +28,12 @@ class Merge final : public Command {
     options.text("-o,--output", "OUT.glb", out_, true, "File to write (.glb or .gltf)");
     options.flag("--join-clips", request_.join_clips,
                  "Make one clip of clips that have the same name in several files");
+    options.text("--into", "GROUP", request_.into, false,
+                 "Join rigs to the one with this global group: they become one rig");
+    options.list("--attach", "LOCAL=LOCAL.LABEL", request_.attach,
+                 "Hang the root of a rig with this local group under that joint; [GLOBAL:]LOCAL "
+                 "where several rigs have the group");
+    declare_modules(options, request_.paths);
   }
   void run(Session& session) override {
     const auto result = pipeline::merge_files(request_, out_, session.diagnostics);
@@ -36,13 +43,19 @@ class Merge final : public Command {
       json::Writer w(2);
       w.begin_object().member("file", out_);
       w.member("bytes", static_cast<std::size_t>(result->bytes)).member("rigs", merged.rigs);
-      w.member("nodes", merged.nodes).member("meshes", merged.meshes);
+      w.key("joined").begin_array();
+      for (const std::string& rig : result->joined.rigs) w.value(rig);
+      w.end_array().member("nodes", merged.nodes).member("meshes", merged.meshes);
       session.out = w.member("clips", merged.clips).end_object().take() + "\n";
       return;
     }
     session.out =
         fmt::format("{}: {} rigs, {} meshes, {} clips, {} KB\n", printable(out_), merged.rigs,
                     merged.meshes, merged.clips, (result->bytes + 1023) / 1024);
+    if (!result->joined.rigs.empty())
+      session.out +=
+          fmt::format("  joined {} to {}: {} joints\n", printable(join(result->joined.rigs, ", ")),
+                      printable(request_.into), result->joined.joints);
   }
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Diagnostic codes 681..684, 688: several files in one. Test: tests/gltf/merge_test.cpp
+// Diagnostic codes 681..684, 688, 689, 695..697: several files in one, several rigs in one. Test:
+// tests/gltf/merge_test.cpp, tests/pipeline/merge_into_test.cpp
 #pragma once
 
 #include "base/diagnostics.h"
@@ -27,7 +28,27 @@ inline constexpr Code kMergeLeftOut{
     688, Severity::warning, "left out of the merged file",
     "A member of the root that only one file can have: that of the first file stays."};
 
-inline constexpr const Code* kMergeCodes[] = {&kMergeExtension, &kMergeIndex, &kMergeTwice,
-                                              &kMergeSameGlobal, &kMergeLeftOut};
+// One rig of several.
+inline constexpr Code kNoSuchJoin{
+    689, Severity::error, "nothing to join",
+    "--into names a rig by its global group, --attach a local group of another rig and a joint of "
+    "the first, by local group and label: `--attach arm_l=torso.chest`."};
+inline constexpr Code kNotAttached{
+    695, Severity::error, "root is not attached",
+    "Every root joint of a rig that joins another hangs under one of its joints: --attach names a "
+    "local group below each root."};
+inline constexpr Code kRigsClash{
+    696, Severity::error, "rigs cannot become one",
+    "Joints of one rig have different keys, its local groups different names, its shapes and "
+    "modules one meaning. Two rigs of one template have the same joints; two versions of a module "
+    "are made one by updating both rigs."};
+inline constexpr Code kKeysOnRoot{
+    697, Severity::warning, "keys on what hangs elsewhere now",
+    "The clip animates a node that hung under nothing of its rig and now follows a joint: its keys "
+    "count from there. Keys on controls are not concerned."};
+
+inline constexpr const Code* kMergeCodes[] = {&kMergeExtension,  &kMergeIndex,   &kMergeTwice,
+                                              &kMergeSameGlobal, &kMergeLeftOut, &kNoSuchJoin,
+                                              &kNotAttached,     &kRigsClash,    &kKeysOnRoot};
 
 }  // namespace rigc::gltf::codes

@@ -17,6 +17,13 @@ inline constexpr Code kGlobalTaken{
     832, Severity::error, "name is taken",
     "Rigs of one file are told apart by their global groups, so each has its own."};
 
-inline constexpr const Code* kMergeFileCodes[] = {&kBadPair, &kNoSuchRig, &kGlobalTaken};
+inline constexpr Code kBadAttach{
+    833, Severity::error, "not LOCAL=LOCAL.LABEL",
+    "--attach takes a local group of a rig that joins and the joint that takes it, for example "
+    "arm_l=torso.chest, or prop:arm_l=torso.chest where several rigs have that group. It needs "
+    "--into, the global group of the rig that the others join."};
+
+inline constexpr const Code* kMergeFileCodes[] = {&kBadPair, &kNoSuchRig, &kGlobalTaken,
+                                                  &kBadAttach};
 
 }  // namespace rigc::pipeline::codes

@@ -71,9 +71,13 @@ class Renaming {
 
   void run(const Value& rig, Renamed& counts) {
     if (set_name(rig["global"])) ++counts.rigs;
-    for (const Value& node : rig["nodes"].items()) set_name(node["global"]);
+    for (const char* list : {"nodes", "joints"})
+      for (const Value& item : rig[list].items()) set_name(item["global"]);
+    rename_arguments(rig, counts);
+  }
+
+  void rename_arguments(const Value& rig, Renamed& counts) {
     for (const Value& joint : rig["joints"].items()) {
-      set_name(joint["global"]);
       for (const Value& command : joint["commands"].items()) {
         const auto* descriptor = catalogue_.find(command["module"].string().value_or(""));
         for (const auto& [name, value] : command["with"].members())
@@ -147,6 +151,20 @@ class Renaming {
 };
 
 }  // namespace
+
+std::size_t rename_selectors(gltf::Patch& patch, const std::map<std::string, std::string>& names,
+                             const catalog::Catalogue& catalogue) {
+  Diagnostics none;
+  const auto document = json::parse(patch.root_extension("RIGC_rig"), "", 0, none);
+  if (!document) return 0;
+  Renamed counts;
+  Renaming renaming(names, catalogue);
+  for (const Value& rig : document->root()["rigs"].items()) renaming.rename_arguments(rig, counts);
+  renaming.edits.sort();
+  if (!renaming.edits.empty())
+    patch.set_root_extension("RIGC_rig", renaming.edits.text(document->root()));
+  return counts.selectors;
+}
 
 std::optional<Renamed> rename_rigs(const RenameRequest& request, const std::string& out,
                                    Diagnostics& diagnostics) {

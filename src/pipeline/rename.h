@@ -2,11 +2,13 @@
 // Rename: another global group for a rig of a file. Test: tests/pipeline/rename_test.cpp
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "gltf/patch.h"
 #include "pipeline/environment.h"
 
 namespace rigc::pipeline {
@@ -27,5 +29,10 @@ struct Renamed {
 /// is locked meanwhile.
 std::optional<Renamed> rename_rigs(const RenameRequest& request, const std::string& out,
                                    Diagnostics& diagnostics);
+
+/// Lets selectors in the arguments of every rig of a patch name other rigs: pairs of old and new.
+/// Gives how many arguments changed.
+std::size_t rename_selectors(gltf::Patch& patch, const std::map<std::string, std::string>& names,
+                             const catalog::Catalogue& catalogue);
 
 }  // namespace rigc::pipeline

@@ -57,7 +57,7 @@ std::string merged(const std::vector<std::string>& paths, const std::string& nam
   fs::remove_all(folder);
   fs::create_directories(folder);
   const std::string out = folder + "/" + name;
-  if (!pipeline::merge_files({paths, join_clips}, out, diagnostics)) return {};
+  if (!pipeline::merge_files({paths, join_clips, {}, {}, {}}, out, diagnostics)) return {};
   std::string models;
   for (const std::string& path : paths)
     models += (fs::path(path).is_absolute() ? path : fs::absolute(path).string()) + "\n";
@@ -310,7 +310,7 @@ TEST_CASE("merge: files of other folders come along unless another file is in th
   fs::create_directories(folder + "/out");
   Diagnostics diagnostics;
   const auto run = [&](const std::vector<std::string>& files, const std::string& out) {
-    return pipeline::merge_files({files, false}, folder + "/out/" + out, diagnostics);
+    return pipeline::merge_files({files, false, {}, {}, {}}, folder + "/out/" + out, diagnostics);
   };
   REQUIRE_MESSAGE(run({models[0], models[1]}, "m.glb"), render(diagnostics, false));
   CHECK(fs::exists(folder + "/out/t/a.png"));

@@ -66,7 +66,7 @@ std::string two_rigs(const std::string& name) {
                     render(diagnostics, false));
   }
   const std::string out = test::test_out(name + ".glb");
-  REQUIRE_MESSAGE(pipeline::merge_files({files, false}, out, diagnostics),
+  REQUIRE_MESSAGE(pipeline::merge_files({files, false, {}, {}, {}}, out, diagnostics),
                   render(diagnostics, false));
   return out;
 }
