@@ -64,6 +64,7 @@ std::unique_ptr<Command> make_build();
 std::unique_ptr<Command> make_check();
 std::unique_ptr<Command> make_completions();
 std::unique_ptr<Command> make_docs();
+std::unique_ptr<Command> make_extract();
 std::unique_ptr<Command> make_inspect();
 std::unique_ptr<Command> make_map();
 std::unique_ptr<Command> make_modules();

@@ -84,11 +84,20 @@ inline constexpr Code kNothingToCheck{
     "In a folder, `rigc check` takes .glb, .gltf and .vrm files, and YAML files with the key "
     "`rigc`, `map` or `module`."};
 
+// Extract and adopt: 850..879.
+inline constexpr Code kWhichRig{850, Severity::error, "which rig",
+                                "The file has several rigs, or none of that name. --rig names one "
+                                "by its global group; `rigc inspect` lists them."};
+inline constexpr Code kNotATemplateName{
+    851, Severity::error, "not a template's name or version",
+    "A template's name has letters, digits, `_` and `-` and does not start with a digit; its "
+    "version is an integer from 1."};
+
 inline constexpr const Code* kPipelineCodes[] = {
-    &kNoSkeleton,     &kSeveralSkeletons, &kNoSuchSkeleton, &kHasRig,      &kNoRig,
-    &kNoSuchClip,     &kForeignChannels,  &kBadRange,       &kShear,       &kUnknownFormat,
-    &kNotOneSelector, &kNoSuchModule,     &kLockedKeys,     &kNothingFits, &kNoAttributeKeyed,
-    &kDrivenKeyed,    &kNotAControl,      &kOutsideLimits,  &kNodesMoved,  &kNoIdentity,
-    &kCannotPin,      &kNothingToCheck};
+    &kNoSkeleton,     &kSeveralSkeletons, &kNoSuchSkeleton, &kHasRig,          &kNoRig,
+    &kNoSuchClip,     &kForeignChannels,  &kBadRange,       &kShear,           &kUnknownFormat,
+    &kNotOneSelector, &kNoSuchModule,     &kLockedKeys,     &kNothingFits,     &kNoAttributeKeyed,
+    &kDrivenKeyed,    &kNotAControl,      &kOutsideLimits,  &kNodesMoved,      &kNoIdentity,
+    &kCannotPin,      &kNothingToCheck,   &kWhichRig,       &kNotATemplateName};
 
 }  // namespace rigc::pipeline::codes
