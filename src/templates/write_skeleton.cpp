@@ -137,6 +137,8 @@ std::string Writer::wanted_name(const tags::TaggedJoint& joint, bool chain) cons
     const Identifiers& ids = joint.ids;
     const bool both = !ids.local.empty() && !ids.label.empty();
     name = both ? ids.local + "_" + ids.label : ids.local + ids.label;
+    for (const std::string& own : {ids.label, ids.local})  // the template's name, if it is this
+      if (uid_of(skeleton_.name, "", own) == joint.key.uid) name = own;
   } else if (chain && ends_with(name, "_1")) {
     name.resize(name.size() - 2);
   }
