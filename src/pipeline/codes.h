@@ -93,11 +93,23 @@ inline constexpr Code kNotATemplateName{
     "A template's name has letters, digits, `_` and `-` and does not start with a digit; its "
     "version is an integer from 1."};
 
+inline constexpr Code kNothingToAdopt{
+    852, Severity::error, "no node to adopt from",
+    "Nodes are known by the custom property `rigc`. The edited file has none, or those of another "
+    "rig. Blender exports them with `Include > Custom Properties`."};
+inline constexpr Code kCopiedNode{
+    853, Severity::error, "two nodes say that they are one",
+    "A node was duplicated with its custom property `rigc`. Remove that from the copy."};
+inline constexpr Code kStrangers{
+    854, Severity::warning, "nodes that the rig does not have",
+    "The edited file has nodes of a rig, or of a version of it, that the file given by --rig does "
+    "not have. What was done to them is not adopted."};
+
 inline constexpr const Code* kPipelineCodes[] = {
     &kNoSkeleton,     &kSeveralSkeletons, &kNoSuchSkeleton, &kHasRig,          &kNoRig,
     &kNoSuchClip,     &kForeignChannels,  &kBadRange,       &kShear,           &kUnknownFormat,
     &kNotOneSelector, &kNoSuchModule,     &kLockedKeys,     &kNothingFits,     &kNoAttributeKeyed,
     &kDrivenKeyed,    &kNotAControl,      &kOutsideLimits,  &kNodesMoved,      &kNoIdentity,
-    &kCannotPin,      &kNothingToCheck,   &kWhichRig,       &kNotATemplateName};
+    &kCannotPin,      &kNothingToCheck,   &kWhichRig,       &kNotATemplateName, &kNothingToAdopt, &kCopiedNode,   &kStrangers};
 
 }  // namespace rigc::pipeline::codes
