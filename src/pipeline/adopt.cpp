@@ -82,12 +82,11 @@ std::optional<std::vector<Twin>> find_twins(const Side& edited, const Side& orig
     const auto [first, fresh] = seen.emplace(*identity, node);
     if (!fresh) {
       unique = false;
-      diagnostics.report(codes::kCopiedNode,
-                         Place(edited.file.path, fmt::format("/nodes/{}", node)),
-                         fmt::format("nodes {} and {} both say that they are {}",
-                                     shown(edited, first->second), shown(edited, node),
-                                     to_text(*identity)),
-                         "remove the custom property `rigc` from the one that is a copy");
+      diagnostics.report(
+          codes::kCopiedNode, Place(edited.file.path, fmt::format("/nodes/{}", node)),
+          fmt::format("nodes {} and {} both say that they are {}", shown(edited, first->second),
+                      shown(edited, node), to_text(*identity)),
+          "remove the custom property `rigc` from the one that is a copy");
       continue;
     }
     const auto found = known.find(*identity);
@@ -131,8 +130,7 @@ std::optional<Adopted> adopt(const AdoptRequest& request, const std::string& out
   const auto twins = find_twins(*edited, *original, *rigs, report, diagnostics);
   if (!twins) return std::nullopt;
   std::set<Target> keyed;
-  const auto changes =
-      adopt_clips(request, *edited, *original, *twins, keyed, report, diagnostics);
+  const auto changes = adopt_clips(request, *edited, *original, *twins, keyed, report, diagnostics);
   if (!changes) return std::nullopt;
 
   gltf::Patch patch(original->file);

@@ -125,8 +125,8 @@ std::optional<std::vector<const anim::Clip*>> Adopter::choose() {
   std::vector<std::string> names;
   for (const anim::Clip& clip : edited_.clips.clips) {
     names.push_back(clip.name);
-    const bool wanted = request_.clips.empty() || std::count(request_.clips.begin(),
-                                                             request_.clips.end(), clip.name) != 0;
+    const bool wanted = request_.clips.empty() ||
+                        std::count(request_.clips.begin(), request_.clips.end(), clip.name) != 0;
     if (wanted) chosen.push_back(&clip);
   }
   bool good = true;

@@ -33,8 +33,8 @@ bool adopt_transform(const Side& edited, const Side& original, const Twin& twin,
   const math::Trs now = edited.slim.node(twin.edited).local;
   const math::Trs before = original.slim.node(twin.original).local;
   const scene::Scene& scene = twin.rig->scene;
-  const unsigned held = scene::bits_at(scene, twin.id, scene::control::kLocked) |
-                        scene::driven_bits(scene, twin.id);
+  const unsigned held =
+      scene::bits_at(scene, twin.id, scene::control::kLocked) | scene::driven_bits(scene, twin.id);
   const Part parts[] = {
       {Path::translation, "translation", scene::kTranslateBits, &now.translation.x,
        &before.translation.x, 3},
@@ -95,9 +95,9 @@ std::string with_rest(std::string joint, const math::Trs& rest) {
     return writer.numbers(first, count).take();
   };
   const bool turned = rest.rotation != math::Quat{}, scaled = rest.scale != math::Vec3{1, 1, 1};
-  joint = gltf::with_member(
-      joint, "translation",
-      rest.translation == math::Vec3{} ? "" : numbers(&rest.translation.x, 3));
+  joint =
+      gltf::with_member(joint, "translation",
+                        rest.translation == math::Vec3{} ? "" : numbers(&rest.translation.x, 3));
   joint = gltf::with_member(joint, "rotation", turned ? numbers(&rest.rotation.x, 4) : "");
   return gltf::with_member(joint, "scale", scaled ? numbers(&rest.scale.x, 3) : "");
 }
@@ -130,7 +130,8 @@ Rests moved_joints(const gltf::Rig& rig, const std::map<JointKey, const Twin*>& 
     if (same_value(twin, Path::translation, &a.translation.x, &b.translation.x) &&
         same_value(twin, Path::rotation, &a.rotation.x, &b.rotation.x))
       continue;
-    math::Trs rest = templates::tidy(math::decompose(math::compose(joint.rest) * inverse(was) * is));
+    math::Trs rest =
+        templates::tidy(math::decompose(math::compose(joint.rest) * inverse(was) * is));
     rest.scale = joint.rest.scale;
     out.emplace(joint.key, rest);
   }

@@ -106,10 +106,12 @@ inline constexpr Code kStrangers{
     "not have. What was done to them is not adopted."};
 
 inline constexpr const Code* kPipelineCodes[] = {
-    &kNoSkeleton,     &kSeveralSkeletons, &kNoSuchSkeleton, &kHasRig,          &kNoRig,
-    &kNoSuchClip,     &kForeignChannels,  &kBadRange,       &kShear,           &kUnknownFormat,
-    &kNotOneSelector, &kNoSuchModule,     &kLockedKeys,     &kNothingFits,     &kNoAttributeKeyed,
-    &kDrivenKeyed,    &kNotAControl,      &kOutsideLimits,  &kNodesMoved,      &kNoIdentity,
-    &kCannotPin,      &kNothingToCheck,   &kWhichRig,       &kNotATemplateName, &kNothingToAdopt, &kCopiedNode,   &kStrangers};
+    &kNoSkeleton,     &kSeveralSkeletons, &kNoSuchSkeleton,   &kHasRig,
+    &kNoRig,          &kNoSuchClip,       &kForeignChannels,  &kBadRange,
+    &kShear,          &kUnknownFormat,    &kNotOneSelector,   &kNoSuchModule,
+    &kLockedKeys,     &kNothingFits,      &kNoAttributeKeyed, &kDrivenKeyed,
+    &kNotAControl,    &kOutsideLimits,    &kNodesMoved,       &kNoIdentity,
+    &kCannotPin,      &kNothingToCheck,   &kWhichRig,         &kNotATemplateName,
+    &kNothingToAdopt, &kCopiedNode,       &kStrangers};
 
 }  // namespace rigc::pipeline::codes
