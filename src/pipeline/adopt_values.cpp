@@ -74,18 +74,35 @@ std::size_t adopt_attributes(const json::Value& extras, const Twin& twin, gltf::
   return count;
 }
 
-/// World matrices of all nodes at rest: joints of skins in their bind pose, whatever pose the
-/// program left them in.
-std::vector<Affine> rest_worlds(const Side& side) {
-  std::vector<Affine> worlds;
-  for (const gltf::SlimNode& node : side.slim.nodes) worlds.push_back(node.world);
+/// Where all nodes of a file rest.
+struct Rested {
+  std::vector<Affine> worlds;  ///< by node
+  std::vector<bool> bound;     ///< by node: a joint of a skin, or between some
+};
+
+/// Joints of skins in their bind pose, whatever pose the program left them in; what hangs under
+/// them with them.
+Rested rest_of(const Side& side) {
+  const std::size_t count = side.slim.nodes.size();
+  Rested out{std::vector<Affine>(count), std::vector<bool>(count, false)};
   Diagnostics quiet;
   const auto skeletons = gltf::read_skeletons(side.file, "bind", quiet);
-  if (!skeletons) return worlds;
-  for (const tags::ForeignSkeleton& skeleton : *skeletons)
-    for (const tags::ForeignJoint& joint : skeleton.joints)
-      worlds[static_cast<std::size_t>(joint.node)] = skeleton.ancestor_world * joint.rest;
-  return worlds;
+  for (std::size_t i = 0; skeletons && i < skeletons->size(); ++i) {
+    const tags::ForeignSkeleton& skeleton = (*skeletons)[i];
+    for (const tags::ForeignJoint& joint : skeleton.joints) {
+      const auto node = static_cast<std::size_t>(joint.node);
+      out.worlds[node] = skeleton.ancestor_world * joint.rest;
+      out.bound[node] = true;
+    }
+  }
+  for (const int index : side.slim.preorder) {
+    const auto node = static_cast<std::size_t>(index);
+    if (out.bound[node]) continue;
+    const gltf::SlimNode& own = side.slim.nodes[node];
+    out.worlds[node] =
+        own.parent < 0 ? own.matrix : out.worlds[static_cast<std::size_t>(own.parent)] * own.matrix;
+  }
+  return out;
 }
 
 /// A joint's new rest in the rig's text: `translation`, `rotation`, `scale`, as write_rig has them.
@@ -104,12 +121,46 @@ std::string with_rest(std::string joint, const math::Trs& rest) {
 
 using Rests = std::map<JointKey, math::Trs>;
 
+using JointTwins = std::map<JointKey, const Twin*>;
+
+bool same_place(const Twin& twin, const Affine& a, const Affine& b) {
+  const math::Trs left = math::decompose(a), right = math::decompose(b);
+  return same_value(twin, Path::translation, &left.translation.x, &right.translation.x) &&
+         same_value(twin, Path::rotation, &left.rotation.x, &right.rotation.x);
+}
+
+/// The motion that most joints of a rig have in common: Blender binds a skin in the pose in which
+/// it finds the topmost joint, so that the whole character rests elsewhere although nobody moved
+/// it.
+Affine common_motion(const JointTwins& joints, const std::vector<Affine>& now,
+                     const std::vector<Affine>& before) {
+  constexpr std::size_t kTried = 16;
+  std::vector<const Twin*> all;
+  for (const auto& [key, twin] : joints) all.push_back(twin);
+  const auto world = [](const std::vector<Affine>& worlds, int node) {
+    return worlds[static_cast<std::size_t>(node)];
+  };
+  Affine best;
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < all.size(); i += 1 + all.size() / kTried) {
+    const Affine motion = world(now, all[i]->edited) * inverse(world(before, all[i]->original));
+    const auto count = std::count_if(all.begin(), all.end(), [&](const Twin* twin) {
+      return same_place(*twin, motion * world(before, twin->original), world(now, twin->edited));
+    });
+    if (static_cast<std::size_t>(count) <= most) continue;
+    most = static_cast<std::size_t>(count);
+    best = motion;
+  }
+  return 2 * most > all.size() ? best : Affine();
+}
+
 /// The joints of a rig that rest elsewhere below their parents. A joint of a model stands in the
 /// author's pose, so what counts is by how much it was moved.
-Rests moved_joints(const gltf::Rig& rig, const std::map<JointKey, const Twin*>& twins,
-                   const std::vector<Affine>& now, const std::vector<Affine>& before) {
+Rests moved_joints(const gltf::Rig& rig, const JointTwins& twins, const Rested& now,
+                   const Rested& before) {
   Rests out;
   const auto& joints = rig.skeleton.joints;
+  const Affine back = inverse(common_motion(twins, now.worlds, before.worlds));
   for (const tags::TaggedJoint& joint : joints) {
     const auto own = twins.find(joint.key);
     if (own == twins.end()) continue;
@@ -123,13 +174,11 @@ Rests moved_joints(const gltf::Rig& rig, const std::map<JointKey, const Twin*>& 
       const Affine& world = worlds[static_cast<std::size_t>(node)];
       return above < 0 ? world : inverse(worlds[static_cast<std::size_t>(above)]) * world;
     };
-    const Affine was = below(before, parent ? parent->original : -1, own->second->original);
-    const Affine is = below(now, parent ? parent->edited : -1, own->second->edited);
-    const math::Trs a = math::decompose(was), b = math::decompose(is);
-    const Twin& twin = *own->second;
-    if (same_value(twin, Path::translation, &a.translation.x, &b.translation.x) &&
-        same_value(twin, Path::rotation, &a.rotation.x, &b.rotation.x))
-      continue;
+    const Affine was = below(before.worlds, parent ? parent->original : -1, own->second->original);
+    const Affine there = below(now.worlds, parent ? parent->edited : -1, own->second->edited);
+    const bool carried = !parent && now.bound[static_cast<std::size_t>(own->second->edited)];
+    const Affine is = carried ? back * there : there;
+    if (same_place(*own->second, was, is)) continue;
     math::Trs rest =
         templates::tidy(math::decompose(math::compose(joint.rest) * inverse(was) * is));
     rest.scale = joint.rest.scale;
@@ -174,14 +223,17 @@ void adopt_values(const Side& edited, const Side& original, const std::vector<Tw
 
 void adopt_joints(const Side& edited, const Side& original, const std::vector<Twin>& twins,
                   gltf::Patch& patch, Adopted& report) {
-  const std::vector<Affine> now = rest_worlds(edited), before = rest_worlds(original);
-  std::map<const gltf::Rig*, std::map<JointKey, const Twin*>> by_rig;
+  const Rested now = rest_of(edited), before = rest_of(original);
+  std::map<std::uint32_t, std::pair<const gltf::Rig*, JointTwins>> by_rig;
   for (const Twin& twin : twins) {
     const scene::Node& node = twin.rig->scene[twin.id];
-    if (node.is_skeleton()) by_rig[twin.rig].emplace(node.identity.owner, &twin);
+    if (!node.is_skeleton()) continue;
+    by_rig[twin.rig->id].first = twin.rig;
+    by_rig[twin.rig->id].second.emplace(node.identity.owner, &twin);
   }
   std::map<std::uint32_t, Rests> moved;
-  for (const auto& [rig, joints] : by_rig) {
+  for (const auto& [id, own] : by_rig) {
+    const auto& [rig, joints] = own;
     Rests rests = moved_joints(*rig, joints, now, before);
     report.joints += rests.size();
     for (const tags::TaggedJoint& joint : rig->skeleton.joints) {
@@ -192,7 +244,7 @@ void adopt_joints(const Side& edited, const Side& original, const std::vector<Tw
                        gltf::float_list(&rest->second.translation.x, 3));
       patch.set_member("nodes", node, "rotation", gltf::float_list(&rest->second.rotation.x, 4));
     }
-    if (!rests.empty()) moved.emplace(rig->id, std::move(rests));
+    if (!rests.empty()) moved.emplace(id, std::move(rests));
   }
   if (!moved.empty())
     patch.set_root_extension("RIGC_rig",
