@@ -22,7 +22,7 @@ struct AdoptRequest {
 /// What became of a clip of the edited file.
 struct AdoptedClip {
   std::string name;              ///< in the result
-  bool fresh = false;            ///< the original had none of that name
+  bool fresh = false;            ///< new: the original had none of that name
   std::size_t changed = 0;       ///< channels that replace the original's
   std::size_t added = 0;         ///< channels that the original's clip did not have
   std::size_t same = 0;          ///< channels that play as the original's, which stay

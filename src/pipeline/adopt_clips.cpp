@@ -233,7 +233,10 @@ void Adopter::adopt(const anim::Clip& clip, int index) {
   std::set<int> controls;
   for (const auto& [edited, twin] : controls_) controls.insert(twin->original);
   for (const auto& [target, channel] : left) report.kept += controls.count(channel->node);
-  if (!out.channels.empty()) changes_.push_back({std::move(out), {}});
+  if (out.channels.empty())
+    report.fresh = false;
+  else
+    changes_.push_back({std::move(out), {}});
 }
 
 std::optional<std::vector<gltf::ClipChange>> Adopter::run() {

@@ -4,7 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <map>
+
 #include "base/text.h"
+#include "gltf/skeletons.h"
 #include "pipeline/codes.h"
 #include "templates/format.h"
 #include "templates/write.h"
@@ -12,6 +16,8 @@
 
 namespace rigc::pipeline {
 namespace {
+
+constexpr double kSameRest = 1e-9;  // relative; what fitting wrote is found again to the last bits
 
 /// What the template is called, checked.
 std::optional<templates::WriteOptions> read_options(const ExtractRequest& request,
@@ -49,6 +55,33 @@ std::vector<std::string> comments_of(const gltf::Rig& rig, bool fitted) {
       fmt::format("`rigc build` with --model{} gives the same rig.",
                   rig.settings.rest == "bind" ? "" : " and --rest " + rig.settings.rest));
   return lines;
+}
+
+/// Rest matrices of a model's joints in rig space as the model has them, unless the rig has others:
+/// a sheared one does not survive translation, rotation and scale.
+std::vector<math::Affine> rest_worlds(const gltf::File& file, const gltf::Rig& rig) {
+  Diagnostics quiet;
+  const auto skeletons = gltf::read_skeletons(file, rig.settings.rest, quiet);
+  std::map<int, math::Affine> by_node;
+  for (std::size_t i = 0; skeletons && i < skeletons->size(); ++i)
+    for (const tags::ForeignJoint& joint : (*skeletons)[i].joints)
+      by_node.emplace(joint.node, joint.rest);
+  const auto same = [&](const math::Trs& a, const math::Trs& b) {
+    const double height = rig.skeleton.character.height;
+    return math::length(a.translation - b.translation) < kSameRest * height &&
+           math::length(a.scale - b.scale) < kSameRest * math::length(b.scale) &&
+           std::abs(math::dot(a.rotation, b.rotation)) > 1 - kSameRest;
+  };
+  std::vector<math::Affine> worlds;
+  for (const tags::TaggedJoint& joint : rig.skeleton.joints) {
+    const math::Affine above =
+        joint.parent < 0 ? math::Affine() : worlds[static_cast<std::size_t>(joint.parent)];
+    const auto known = by_node.find(joint.foreign_node);
+    const bool still =
+        known != by_node.end() && same(math::decompose(inverse(above) * known->second), joint.rest);
+    worlds.push_back(still ? known->second : above * math::compose(joint.rest));
+  }
+  return worlds;
 }
 
 }  // namespace
@@ -94,6 +127,7 @@ std::optional<Extracted> extract(const ExtractRequest& request, Diagnostics& dia
   Extracted out;
   out.fitted = templates::was_fitted(rig->skeleton);
   options->comments = comments_of(*rig, out.fitted);
+  if (out.fitted) options->worlds = rest_worlds(*file, *rig);
   out.name = options->name;
   out.version = options->version;
   out.joints = rig->skeleton.joints.size();

@@ -30,7 +30,7 @@ class Text {
         options_(options),
         straight_(straight),
         defaults_(feature_defaults(skeleton)),
-        joints_(written_joints(skeleton)) {}
+        joints_(written_joints(skeleton, options.worlds)) {}
   std::string run();
 
  private:
@@ -221,7 +221,7 @@ std::set<std::uint64_t> straight_chains(const tags::TaggedSkeleton& skeleton,
                                         const catalog::Catalogue& catalogue,
                                         const WriteOptions& options) {
   std::set<std::uint64_t> chains;
-  for (const WrittenJoint& joint : written_joints(skeleton))
+  for (const WrittenJoint& joint : written_joints(skeleton, options.worlds))
     if (!joint.steps.empty()) chains.insert(joint.source->key.uid);
   if (chains.empty() || was_fitted(skeleton)) return {};
   Diagnostics trial;

@@ -18,6 +18,9 @@ struct WriteOptions {
   std::vector<std::string> comments;  ///< lines above everything
   /// Versions of the modules that made the rig: older ones than the catalogue's are pinned.
   std::vector<std::pair<std::string, int>> modules;
+  /// Rest matrices of the joints in rig space, where somebody knows them better than their rests
+  /// say: those of a model may be sheared. Empty, or one for each joint.
+  std::vector<math::Affine> worlds;
 };
 
 /// Every joint keeps its key and every command its id. Features have the state that they have in

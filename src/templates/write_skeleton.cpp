@@ -46,8 +46,8 @@ bool is_chain_of_one(const std::string& template_name, const tags::TaggedJoint& 
 
 class Writer {
  public:
-  explicit Writer(const tags::TaggedSkeleton& skeleton)
-      : skeleton_(skeleton), fitted_(was_fitted(skeleton)) {}
+  Writer(const tags::TaggedSkeleton& skeleton, const std::vector<Affine>& known)
+      : skeleton_(skeleton), known_(known), fitted_(was_fitted(skeleton)) {}
   std::vector<WrittenJoint> run();
 
  private:
@@ -62,6 +62,7 @@ class Writer {
   void pair_sides();
 
   const tags::TaggedSkeleton& skeleton_;
+  const std::vector<Affine>& known_;
   const bool fitted_;
   std::vector<Affine> places_;                                 ///< by joint, template space
   std::map<std::uint64_t, std::vector<std::size_t>> members_;  ///< by uid, in order
@@ -85,11 +86,14 @@ void Writer::find_places() {
   const Mat3 from_rig = math::inverse(axes);
   const Mat3 turn = math::transposed(
       math::orthonormal({character.left, character.up, cross(character.left, character.up)}));
-  std::vector<Affine> worlds;
-  for (const tags::TaggedJoint& joint : skeleton_.joints) {
+  std::vector<Affine> worlds = known_;
+  for (std::size_t i = 0; i < skeleton_.joints.size(); ++i) {
+    const tags::TaggedJoint& joint = skeleton_.joints[i];
     const Affine own = math::compose(joint.rest);
-    worlds.push_back(joint.parent < 0 ? own : worlds[static_cast<std::size_t>(joint.parent)] * own);
-    Affine place = worlds.back();
+    if (known_.empty())
+      worlds.push_back(joint.parent < 0 ? own
+                                        : worlds[static_cast<std::size_t>(joint.parent)] * own);
+    Affine place = worlds[i];
     if (fitted_) {
       place.origin = from_rig * place.origin * (1 / character.unit);
       place.linear = turn * math::orthonormal(place.linear);
@@ -229,8 +233,9 @@ bool was_fitted(const tags::TaggedSkeleton& skeleton) {
                      [](const tags::TaggedJoint& joint) { return joint.foreign_node >= 0; });
 }
 
-std::vector<WrittenJoint> written_joints(const tags::TaggedSkeleton& skeleton) {
-  return Writer(skeleton).run();
+std::vector<WrittenJoint> written_joints(const tags::TaggedSkeleton& skeleton,
+                                         const std::vector<Affine>& worlds) {
+  return Writer(skeleton, worlds).run();
 }
 
 }  // namespace rigc::templates

@@ -28,7 +28,8 @@ struct WrittenJoint {
 bool was_fitted(const tags::TaggedSkeleton& skeleton);
 
 /// Joints parents first. Of a skeleton that was fitted to a model, bones that no joint of the
-/// template stands for are left out.
-std::vector<WrittenJoint> written_joints(const tags::TaggedSkeleton& skeleton);
+/// template stands for are left out. `worlds`: as in WriteOptions.
+std::vector<WrittenJoint> written_joints(const tags::TaggedSkeleton& skeleton,
+                                         const std::vector<math::Affine>& worlds);
 
 }  // namespace rigc::templates

@@ -121,8 +121,7 @@ std::string structure(const gltf::Rig& rig) {
   return out;
 }
 
-/// A model's bones lose something on the way through translation, rotation and scale: those of Xbot
-/// are sheared by a few hundred millionths.
+/// On a model the template's size is measured anew, which changes the last bits of what it scales.
 void check_places_near(const gltf::Rig& a, const gltf::Rig& b) {
   REQUIRE(a.scene.size() == b.scene.size());
   double farthest = 0;
@@ -132,9 +131,9 @@ void check_places_near(const gltf::Rig& a, const gltf::Rig& b) {
     farthest = std::max(farthest, math::length(left.origin - right.origin));
     for (const auto& [x, y] :
          {std::pair(left.linear.x, right.linear.x), std::pair(left.linear.y, right.linear.y)})
-      CHECK(math::length(x - y) < 1e-7);
+      CHECK(math::length(x - y) < 1e-12);
   }
-  CHECK(farthest < 1e-7 * a.skeleton.character.height);
+  CHECK(farthest < 1e-12 * a.skeleton.character.height);
   MESSAGE("nodes differ by up to ", farthest);
 }
 
@@ -206,7 +205,8 @@ TEST_CASE("extract: a rig on a model comes back on the model, and alone with its
     const math::Mat3 axes{character.left, character.up, character.forward};
     const math::Vec3 expected = round.first.skeleton.world(static_cast<std::size_t>(there)).origin;
     const math::Vec3 place = axes * built->rig.skeleton.world(here).origin * character.unit;
-    CHECK(math::length(place - expected) < 1e-8 * character.height);
+    // The model's bones are sheared by a few hundred millionths, which their rests cannot say.
+    CHECK(math::length(place - expected) < 2e-7 * character.height);
   }
 }
 
