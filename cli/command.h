@@ -60,11 +60,13 @@ void declare_modules(Options& options, pipeline::Paths& paths);
 /// What `build` and `plan` share: template, model, features, groups, how far to run.
 void declare_build(Options& options, pipeline::BuildRequest& request);
 
+std::unique_ptr<Command> make_adopt();
 std::unique_ptr<Command> make_bake();
 std::unique_ptr<Command> make_build();
 std::unique_ptr<Command> make_check();
 std::unique_ptr<Command> make_completions();
 std::unique_ptr<Command> make_docs();
+std::unique_ptr<Command> make_extract();
 std::unique_ptr<Command> make_inspect();
 std::unique_ptr<Command> make_map();
 std::unique_ptr<Command> make_merge();
