@@ -7,14 +7,22 @@ namespace rigc::cli {
 std::vector<std::unique_ptr<Command>> commands() {
   std::vector<std::unique_ptr<Command>> table;
   table.push_back(make_build());
+  table.push_back(make_update());
+  table.push_back(make_rebuild());
+  table.push_back(make_unbuild());
+  table.push_back(make_strip());
+  table.push_back(make_prune());
   table.push_back(make_map());
   table.push_back(make_check());
   table.push_back(make_plan());
+  table.push_back(make_status());
   table.push_back(make_inspect());
   table.push_back(make_query());
   table.push_back(make_bake());
   table.push_back(make_merge());
   table.push_back(make_rename());
+  table.push_back(make_extract());
+  table.push_back(make_adopt());
   table.push_back(make_modules());
   table.push_back(make_schema());
   table.push_back(make_completions());

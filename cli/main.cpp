@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 // rigc: parses the command line, runs one command, prints what it reports. Exit status: 0 done, 1
 // the work has errors, 2 wrong usage, 3 the file system refused. Test: tests/cli/cli_test.cpp
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <cstdlib>
 
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/terminal.h"
 
 namespace {
 
@@ -57,20 +55,15 @@ class ParserOptions final : public Options {
   CLI::App& app_;
 };
 
-bool wants_colour() {
-  const char* no_colour = std::getenv("NO_COLOR");
-  return isatty(STDERR_FILENO) != 0 && !(no_colour && *no_colour);
-}
-
 void print(std::FILE* to, const std::string& text) { std::fwrite(text.data(), 1, text.size(), to); }
 
 int finish(const Session& session) {
-  print(stderr, rigc::render(session.diagnostics, wants_colour()));
+  print(stderr, rigc::render(session.diagnostics, rigc::cli::wants_colour()));
   print(stderr, session.notes);
   print(stdout, session.out);
   const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   if (session.diagnostics.file_system_refused() || !written) return 3;
-  return session.diagnostics.ok() ? 0 : 1;
+  return session.diagnostics.ok() ? session.status : 1;
 }
 
 /// A first word that is no command: said so, with the nearest one, before the parser speaks of

@@ -12,15 +12,17 @@ namespace rigc::bake {
 namespace {
 
 /// Only with its times.
-anim::Clip clip_of(const std::vector<Input>& inputs) {
+anim::Clip clip_of(const std::vector<eval::ClipInput>& inputs) {
   anim::Clip clip;
-  for (const Input& input : inputs) clip.channels.emplace_back().curve.times = input.curve->times;
+  for (const eval::ClipInput& input : inputs)
+    clip.channels.emplace_back().curve.times = input.curve->times;
   return clip;
 }
 
-std::vector<bool> animated_nodes(const scene::Scene& scene, const std::vector<Input>& inputs) {
+std::vector<bool> animated_nodes(const scene::Scene& scene,
+                                 const std::vector<eval::ClipInput>& inputs) {
   std::vector<bool> animated(scene.size(), false);
-  for (const Input& input : inputs)
+  for (const eval::ClipInput& input : inputs)
     if (input.plug.attribute < scene::transform::kCount) animated[input.plug.node.index] = true;
   return animated;
 }
@@ -51,7 +53,7 @@ void add_channels(const std::vector<Track>& tracks, const std::vector<Body>& bod
 std::optional<anim::Clip> bake(const scene::Scene& scene, const std::vector<int>& nodes,
                                const anim::Clip& clip, const Options& options, Report& report,
                                Diagnostics& diagnostics) {
-  const std::vector<Input> inputs = find_inputs(scene, nodes, clip);
+  const std::vector<eval::ClipInput> inputs = eval::clip_inputs(scene, nodes, clip);
   const std::vector<Body> bodies =
       find_bodies(scene, nodes, animated_nodes(scene, inputs), options);
   auto times =

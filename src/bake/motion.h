@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bake/bodies.h"
+#include "eval/clip_inputs.h"
 
 namespace rigc::bake {
 
@@ -22,20 +23,9 @@ struct Motion {
 /// Numbers that a Motion holds for each body and frame.
 inline constexpr std::size_t kMotionWidth = 22;
 
-/// One attribute that the clip animates.
-struct Input {
-  scene::Plug plug;
-  const anim::Curve* curve = nullptr;  ///< of the clip
-};
-
-/// Channels of a clip that move plugs of the scene; those on plugs that cannot be animated are left
-/// out.
-std::vector<Input> find_inputs(const scene::Scene& scene, const std::vector<int>& nodes,
-                               const anim::Clip& clip);
-
 std::optional<Motion> evaluate(const scene::Scene& scene, const std::vector<Body>& bodies,
-                               const std::vector<Input>& inputs, std::vector<double> times,
-                               Diagnostics& diagnostics);
+                               const std::vector<eval::ClipInput>& inputs,
+                               std::vector<double> times, Diagnostics& diagnostics);
 
 /// World of a body from its local transform and the world of its base (null: the rig's space).
 math::Affine world_of(const Body& body, const math::Trs& local, const math::Affine* base);

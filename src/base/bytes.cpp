@@ -20,12 +20,24 @@ namespace {
 /// Up to here a file is read at once: many small reads would take longer, and a model may name more
 /// small files than can be open at a time.
 constexpr std::uint64_t kSmall = std::uint64_t{1} << 16;
+constexpr std::uint64_t kCompared = std::uint64_t{1} << 20;
 
-bool same_time(const timespec& a, const timespec& b) {
-  return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec;
+std::int64_t nanoseconds(const timespec& time) {
+  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
 }  // namespace
+
+FileVersion posix::version_of(const struct stat& status) {
+  FileVersion version;
+  version.device = status.st_dev;
+  version.inode = status.st_ino;
+  version.size = static_cast<std::uint64_t>(status.st_size);
+  version.modified = nanoseconds(status.st_mtim);
+  version.changed = nanoseconds(status.st_ctim);
+  version.mode = status.st_mode & 07777;
+  return version;
+}
 
 std::shared_ptr<const OpenFile> OpenFile::open(const std::string& path, Diagnostics& diagnostics) {
   auto file = std::make_shared<OpenFile>();
@@ -55,7 +67,7 @@ bool OpenFile::read(std::uint64_t offset, std::size_t length, char* to,
 bool OpenFile::check_unchanged(Diagnostics& diagnostics) const {
   struct stat now {};
   const bool same = ::fstat(descriptor_.get(), &now) == 0 && now.st_size == status_.st_size &&
-                    same_time(now.st_mtim, status_.st_mtim);
+                    nanoseconds(now.st_mtim) == nanoseconds(status_.st_mtim);
   if (!same) report_change(diagnostics);
   return same;
 }
@@ -81,11 +93,14 @@ std::optional<Bytes> Bytes::open(const std::string& path, std::uint64_t limit,
   }
   Bytes bytes;
   bytes.size_ = file->size();
+  bytes.version_ = std::make_shared<const FileVersion>(file->version());
   bytes.file_ = std::move(file);
   if (bytes.size_ > kSmall) return bytes;
   auto text = bytes.text(diagnostics);
   if (!text) return std::nullopt;
-  return Bytes(*std::move(text));
+  Bytes small(*std::move(text));
+  small.version_ = std::move(bytes.version_);
+  return small;
 }
 
 Bytes Bytes::part(std::uint64_t begin, std::uint64_t length) const {
@@ -111,6 +126,16 @@ std::optional<std::string> Bytes::text(Diagnostics& diagnostics) const {
   std::string text(size_, '\0');
   if (!read(0, text.size(), text.data(), diagnostics)) return std::nullopt;
   return text;
+}
+
+bool same_bytes(const Bytes& a, const Bytes& b, Diagnostics& diagnostics) {
+  if (a.size() != b.size()) return false;
+  for (std::uint64_t at = 0; at < a.size(); at += kCompared) {
+    const auto left = a.part(at, kCompared).text(diagnostics);
+    const auto right = b.part(at, kCompared).text(diagnostics);
+    if (!left || left != right) return false;
+  }
+  return true;
 }
 
 }  // namespace rigc

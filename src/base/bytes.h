@@ -16,6 +16,15 @@ namespace rigc {
 /// A regular file held open for reading (base/posix.h).
 class OpenFile;
 
+/// Which file it was and when it was last changed: two equal versions are the same bytes.
+struct FileVersion {
+  std::uint64_t device = 0, inode = 0, size = 0;
+  std::int64_t modified = 0;  ///< content, nanoseconds since 1970
+  std::int64_t changed = 0;   ///< content, mode, owner or links, nanoseconds since 1970
+  unsigned mode = 0;          ///< permissions
+  bool operator==(const FileVersion&) const = default;
+};
+
 /// Cheap to copy. A file stays open as long as there are bytes of it.
 class Bytes {
  public:
@@ -47,13 +56,20 @@ class Bytes {
   const OpenFile* file() const { return file_.get(); }
   std::uint64_t offset() const { return offset_; }
   std::string_view memory() const { return memory_; }
+  /// What the file was when it was opened, also where its bytes are in memory now; null for bytes
+  /// that come from no file.
+  const FileVersion* version() const { return version_.get(); }
 
  private:
   std::shared_ptr<const std::string> owned_;
   std::shared_ptr<const OpenFile> file_;
+  std::shared_ptr<const FileVersion> version_;
   std::string_view memory_;
   std::uint64_t offset_ = 0;
   std::uint64_t size_ = 0;
 };
+
+/// False where they differ, and where one of them cannot be read, which is reported.
+bool same_bytes(const Bytes& a, const Bytes& b, Diagnostics& diagnostics);
 
 }  // namespace rigc

@@ -135,6 +135,14 @@ inline constexpr Code kFileChanged{
 inline constexpr Code kUnknownChoice{81, Severity::error, "unknown word",
                                      "Only a few words may stand here; the hint lists them."};
 
+inline constexpr Code kFileReplaced{
+    82, Severity::error, "file changed since it was read",
+    "Another program changed, replaced or removed the file after rigc had read it. Its work stays "
+    "as it is and nothing was written; run rigc again."};
+inline constexpr Code kBackupDiffers{
+    83, Severity::error, "another backup is there",
+    "A backup is never overwritten. Name another folder for the backups, or move the old ones."};
+
 inline constexpr const Code* base_codes[] = {
     &kCannotRead,        &kNotRegularFile,     &kFileTooLarge,     &kCannotWrite,
     &kNoSuchFolder,      &kWriteProtected,     &kFileLocked,       &kHardLink,
@@ -145,12 +153,14 @@ inline constexpr const Code* base_codes[] = {
     &kNotText,           &kNotAName,           &kNotASequence,     &kNotAMap,
     &kWrongCount,        &kUnknownKey,         &kJsonSyntax,       &kJsonTooLarge,
     &kJsonBadUtf8,       &kJsonBadString,      &kJsonDuplicateKey, &kJsonTooDeep,
-    &kJsonNumberRange,   &kJsonTrailing,       &kFileChanged,      &kUnknownChoice};
+    &kJsonNumberRange,   &kJsonTrailing,       &kFileChanged,      &kUnknownChoice,
+    &kFileReplaced,      &kBackupDiffers};
 
 /// Errors for which the exit status is 3: not the work but the file system is at fault.
 constexpr bool is_file_system(const Code& code) {
   return code.severity == Severity::error && code.number != kFileTooLarge.number &&
-         (code.number <= kFileLocked.number || code.number == kFileChanged.number);
+         (code.number <= kFileLocked.number || code.number == kFileChanged.number ||
+          code.number == kFileReplaced.number);
 }
 
 }  // namespace rigc::codes

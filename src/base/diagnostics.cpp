@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "base/codes.h"
 #include "base/text.h"
@@ -108,6 +109,21 @@ Place Place::at_byte(std::string file_name, std::uint64_t byte) {
   Place place(std::move(file_name));
   place.offset = byte;
   return place;
+}
+
+void Diagnostics::append(const Diagnostics& other) {
+  std::map<std::uint32_t, std::uint32_t> files;
+  for (const Diagnostic& one : other.all_) {
+    Place place = one.place;
+    if (place.span.known()) {
+      auto [file, is_new] = files.emplace(place.span.file, 0);
+      if (is_new)
+        file->second = sources_->add(std::string(other.sources().name(place.span.file)),
+                                     std::string(other.sources().text(place.span.file)));
+      place.span.file = file->second;
+    }
+    report(*one.code, std::move(place), one.message, one.hint);
+  }
 }
 
 void Diagnostics::report(const Code& code, Place place, std::string message, std::string hint) {

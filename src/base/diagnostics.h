@@ -52,8 +52,14 @@ struct Diagnostic {
 class Diagnostics {
  public:
   Diagnostics() : sources_(std::make_shared<Sources>()) {}
+  /// Starts with a copy of `base`, so that spans into it can be reported here: each of several
+  /// threads has Diagnostics of its own about templates that all share.
+  explicit Diagnostics(const Sources& base) : sources_(std::make_shared<Sources>(base)) {}
 
   void report(const Code& code, Place place, std::string message, std::string hint = {});
+
+  /// Reports again what another has: its spans then point into sources of this one.
+  void append(const Diagnostics& other);
 
   Sources& sources() { return *sources_; }
   const Sources& sources() const { return *sources_; }

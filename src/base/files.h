@@ -21,12 +21,20 @@ namespace rigc {
 std::optional<std::string> read_file(const std::string& path, std::uint64_t limit,
                                      Diagnostics& diagnostics);
 
+struct WriteSettings {
+  /// What was read from the path: if it is no longer exactly that, it is left alone, which is an
+  /// error. Null: whatever is there is replaced.
+  const FileVersion* expected = nullptr;
+  /// Permissions of a file that is new. Without: by the umask.
+  std::optional<unsigned> mode;
+};
+
 /// Writes pieces as one file, atomically; on failure nothing is left behind and the old file stays.
 /// Pieces of files are copied inside the system where it can do that; a file that was changed since
 /// it was opened is an error.
 /// A symbolic link stays and what it points to is replaced; mode and, if possible, owner stay too.
-bool write_file(const std::string& path, const std::vector<Bytes>& pieces,
-                Diagnostics& diagnostics);
+bool write_file(const std::string& path, const std::vector<Bytes>& pieces, Diagnostics& diagnostics,
+                const WriteSettings& settings = {});
 
 /// An exclusive lock (flock) of an existing file, held until destroyed, from before the file is
 /// read until after it is written. A path where there is no file yet gives a lock that locks
@@ -53,6 +61,13 @@ bool file_exists(const std::string& path);
 bool folder_exists(const std::string& path);
 /// Names (not paths) in a folder, sorted bytewise; temporary files of ours are skipped.
 std::vector<std::string> list_folder(const std::string& path);
+/// The same for a folder that must be readable.
+std::optional<std::vector<std::string>> list_folder(const std::string& path,
+                                                    Diagnostics& diagnostics);
+
+/// `path` from the root on, with `..` and symbolic links resolved, whether or not there is such a
+/// file: equal ones name the same file. Nothing for a loop of links.
+std::optional<std::string> resolved_path(const std::string& path);
 
 /// `path` inside `folder`, with `..`, symbolic links and absolute paths resolved; nothing if it
 /// leaves the folder.

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "base/codes.h"
 #include "base/files.h"
 #include "base/posix.h"
 #include "base/text.h"
@@ -23,7 +24,10 @@ Descriptor::~Descriptor() {
   if (number_ >= 0) ::close(number_);
 }
 
-bool Descriptor::close() { return ::close(release()) == 0; }
+bool Descriptor::close() {
+  // Interrupted or not, the descriptor is closed, and what was flushed stays so.
+  return ::close(release()) == 0 || errno == EINTR;
+}
 
 Descriptor open(const std::string& path, int flags, mode_t mode) {
   int number = -1;
@@ -117,21 +121,44 @@ bool folder_exists(const std::string& path) {
 }
 
 std::vector<std::string> list_folder(const std::string& path) {
+  Diagnostics unused;
+  return list_folder(path, unused).value_or(std::vector<std::string>());
+}
+
+std::optional<std::vector<std::string>> list_folder(const std::string& path,
+                                                    Diagnostics& diagnostics) {
   std::vector<std::string> names;
   DIR* const listing = posix::has_nul(path) ? nullptr : ::opendir(path.c_str());
-  if (!listing) return names;
-  while (const dirent* entry = ::readdir(listing)) {
+  int error = listing ? 0 : errno;
+  while (listing) {
+    errno = 0;
+    const dirent* entry = ::readdir(listing);
+    if (!entry) break;
     std::string name = entry->d_name;
     if (name != "." && name != ".." && !posix::is_temporary_name(name))
       names.push_back(std::move(name));
   }
-  ::closedir(listing);
+  if (listing) {
+    error = errno;
+    ::closedir(listing);
+  }
+  if (error != 0) {
+    diagnostics.report(codes::kCannotRead, path,
+                       "cannot list the folder: " + posix::text_of_error(error));
+    return std::nullopt;
+  }
   std::sort(names.begin(), names.end());
   return names;
 }
 
+std::optional<std::string> resolved_path(const std::string& path) { return resolve(path); }
+
 std::optional<std::string> confine(const std::string& folder, const std::string& path) {
-  if (path.empty() || !folder_exists(folder)) return std::nullopt;
+  struct stat status {};
+  const bool known = !posix::has_nul(folder) && ::stat(folder.c_str(), &status) == 0;
+  // What the system refuses to say of a folder it refuses again when the file is opened.
+  const bool is_missing = known ? !S_ISDIR(status.st_mode) : errno == ENOENT || errno == ENOTDIR;
+  if (path.empty() || is_missing) return std::nullopt;
   const auto inside = resolve(folder);
   const auto resolved = resolve(join_path(folder, path));
   if (!inside || !resolved) return std::nullopt;

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "base/bytes.h"
 #include "base/diagnostics.h"
 
 namespace rigc::posix {
@@ -41,6 +42,8 @@ Descriptor open(const std::string& path, int flags, mode_t mode = 0);
 /// Opens an existing regular file for reading; empty if that failed, which is reported.
 Descriptor open_regular(const std::string& path, struct stat& status, Diagnostics& diagnostics);
 
+FileVersion version_of(const struct stat& status);
+
 /// What the system says about an error number, in English whatever the locale.
 std::string text_of_error(int error);
 
@@ -66,6 +69,7 @@ class OpenFile {
   static std::shared_ptr<const OpenFile> open(const std::string& path, Diagnostics& diagnostics);
   int descriptor() const { return descriptor_.get(); }
   std::uint64_t size() const { return static_cast<std::uint64_t>(status_.st_size); }
+  FileVersion version() const { return posix::version_of(status_); }
   bool read(std::uint64_t offset, std::size_t length, char* to, Diagnostics& diagnostics) const;
   /// Size and time of the last change are those of the opening; else that is reported.
   bool check_unchanged(Diagnostics& diagnostics) const;

@@ -8,16 +8,16 @@
 namespace rigc {
 
 std::uint32_t Sources::add(std::string name, std::string text) {
-  sources_.push_back({std::move(name), std::move(text)});
+  sources_.push_back(std::make_shared<const Source>(Source{std::move(name), std::move(text)}));
   return static_cast<std::uint32_t>(sources_.size());
 }
 
 std::string_view Sources::name(std::uint32_t file) const {
-  return file == 0 || file > sources_.size() ? std::string_view() : sources_[file - 1].name;
+  return file == 0 || file > sources_.size() ? std::string_view() : sources_[file - 1]->name;
 }
 
 std::string_view Sources::text(std::uint32_t file) const {
-  return file == 0 || file > sources_.size() ? std::string_view() : sources_[file - 1].text;
+  return file == 0 || file > sources_.size() ? std::string_view() : sources_[file - 1]->text;
 }
 
 std::string_view Sources::line(std::uint32_t file, std::uint32_t line) const {

@@ -4,9 +4,10 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rigc {
 
@@ -28,7 +29,8 @@ struct Origin {
   std::string command;
 };
 
-/// The texts that spans point into, by the names that users gave them.
+/// The texts that spans point into, by the names that users gave them. A copy shares the texts, and
+/// spans into the original mean the same in it.
 class Sources {
  public:
   /// Registers a text and returns its number, which spans carry.
@@ -43,7 +45,7 @@ class Sources {
     std::string name;
     std::string text;
   };
-  std::deque<Source> sources_;  // views stay valid while it grows
+  std::vector<std::shared_ptr<const Source>> sources_;  // views stay valid while it grows
 };
 
 }  // namespace rigc

@@ -24,6 +24,7 @@ namespace {
 
 constexpr std::size_t kMostPerWrite = std::size_t{1} << 30;
 constexpr std::uint64_t kBlock = std::uint64_t{1} << 18;
+constexpr std::uint64_t kSmall = std::uint64_t{1} << 15;
 constexpr std::uint64_t kMostPerCopy = std::uint64_t{1} << 22;
 constexpr time_t kStaleSeconds = 600;
 
@@ -159,42 +160,69 @@ bool write_all(int descriptor, std::string_view piece) {
   return true;
 }
 
-/// Writes a piece at the position of `to`; where that fails, it is reported.
-bool append(const Bytes& piece, int to, EarlyFlush& early, const std::string& path,
-            Diagnostics& diagnostics) {
-  if (!piece.file()) {
-    if (!write_all(to, piece.memory())) return refuse(path, "write", errno, diagnostics);
-    early.wrote(piece.size());
+/// Writes pieces one after another; where that fails, it is reported.
+class Appender {
+ public:
+  Appender(int to, std::uint64_t size, const std::string& path, Diagnostics& diagnostics)
+      : to_(to), early_(to, size), path_(path), diagnostics_(diagnostics) {}
+
+  bool add(const Bytes& piece) {
+    if (piece.file()) return flush() && copy(piece);
+    if (piece.size() >= kSmall) return flush() && write(piece.memory());
+    // A changed document is thousands of small pieces.
+    small_ += piece.memory();
+    return small_.size() < kBlock || flush();
+  }
+
+  /// What was kept back until there is enough of it.
+  bool flush() {
+    const bool done = write(small_);
+    small_.clear();
+    return done;
+  }
+
+ private:
+  bool write(std::string_view text) {
+    if (!write_all(to_, text)) return refuse(path_, "write", errno, diagnostics_);
+    early_.wrote(text.size());
     return true;
   }
-  std::uint64_t done = 0;
-  while (done < piece.size()) {
-    auto from = static_cast<off_t>(piece.offset() + done);
-    const ssize_t copied = ::copy_file_range(piece.file()->descriptor(), &from, to, nullptr,
-                                             std::min(piece.size() - done, kMostPerCopy), 0);
-    if (copied < 0 && errno == EINTR) continue;
-    if (copied <= 0) break;  // not between these file systems, or the end: reading tells which
-    done += static_cast<std::uint64_t>(copied);
-    early.wrote(static_cast<std::uint64_t>(copied));
+
+  bool copy(const Bytes& piece) {
+    std::uint64_t done = 0;
+    while (done < piece.size()) {
+      auto from = static_cast<off_t>(piece.offset() + done);
+      const ssize_t copied = ::copy_file_range(piece.file()->descriptor(), &from, to_, nullptr,
+                                               std::min(piece.size() - done, kMostPerCopy), 0);
+      if (copied < 0 && errno == EINTR) continue;
+      if (copied <= 0) break;  // not between these file systems, or the end: reading tells which
+      done += static_cast<std::uint64_t>(copied);
+      early_.wrote(static_cast<std::uint64_t>(copied));
+    }
+    std::string block;
+    for (; done < piece.size(); done += block.size()) {
+      block.resize(std::min(piece.size() - done, kBlock));
+      if (!piece.read(done, block.size(), block.data(), diagnostics_) || !write(block))
+        return false;
+    }
+    return true;
   }
-  std::string block;
-  for (; done < piece.size(); done += block.size()) {
-    block.resize(std::min(piece.size() - done, kBlock));
-    if (!piece.read(done, block.size(), block.data(), diagnostics)) return false;
-    if (!write_all(to, block)) return refuse(path, "write", errno, diagnostics);
-    early.wrote(block.size());
-  }
-  return true;
-}
+
+  int to_;
+  EarlyFlush early_;
+  std::string small_;
+  const std::string& path_;
+  Diagnostics& diagnostics_;
+};
 
 bool append_all(const std::vector<Bytes>& pieces, int to, const std::string& path,
                 Diagnostics& diagnostics) {
   std::uint64_t size = 0;
   for (const Bytes& piece : pieces) size += piece.size();
-  EarlyFlush early(to, size);
-  return std::all_of(pieces.begin(), pieces.end(), [&](const Bytes& piece) {
-    return append(piece, to, early, path, diagnostics);
-  });
+  Appender appender(to, size, path, diagnostics);
+  return std::all_of(pieces.begin(), pieces.end(),
+                     [&](const Bytes& piece) { return appender.add(piece); }) &&
+         appender.flush();
 }
 
 bool flush(int descriptor) {
@@ -206,6 +234,22 @@ bool flush(int descriptor) {
   return true;
 }
 
+/// Whether the target is what was read, also if the links on the way to it changed meanwhile.
+bool is_expected(const std::string& path, const Target& target, const FileVersion& expected) {
+  struct stat named {
+  }, replaced{};
+  return ::stat(path.c_str(), &named) == 0 && ::lstat(target.path.c_str(), &replaced) == 0 &&
+         posix::version_of(named) == expected && posix::version_of(replaced) == expected;
+}
+
+bool refuse_other(const std::string& path, Diagnostics& diagnostics) {
+  diagnostics.report(codes::kFileReplaced, path,
+                     file_exists(path)
+                         ? "the file was changed after it was read; it is not replaced"
+                         : "the file has vanished after it was read");
+  return false;
+}
+
 /// Gives the new file the owner (where that is allowed) and the mode of the one that it replaces.
 bool copy_mode(int descriptor, const struct stat& status) {
   const bool is_owner_kept = ::fchown(descriptor, status.st_uid, status.st_gid) == 0;
@@ -213,20 +257,27 @@ bool copy_mode(int descriptor, const struct stat& status) {
   return ::fchmod(descriptor, mode) == 0;
 }
 
+bool set_mode(int descriptor, const Target& target, std::optional<unsigned> mode_if_new) {
+  if (target.exists) return copy_mode(descriptor, target.status);
+  return !mode_if_new || ::fchmod(descriptor, *mode_if_new & 0777) == 0;
+}
+
 }  // namespace
 
-bool write_file(const std::string& path, const std::vector<Bytes>& pieces,
-                Diagnostics& diagnostics) {
+bool write_file(const std::string& path, const std::vector<Bytes>& pieces, Diagnostics& diagnostics,
+                const WriteSettings& settings) {
   Target target;
   if (!find_target(path, target, diagnostics)) return false;
   if (!check_target(path, target, diagnostics)) return false;
+  const FileVersion* const expected = settings.expected;
+  if (expected && !is_expected(path, target, *expected)) return refuse_other(path, diagnostics);
   // Opened before anything changes: after the rename only the flush itself may still fail.
   const posix::Descriptor folder = posix::open(folder_of(target.path), O_RDONLY | O_DIRECTORY);
   Temporary temporary(target.path);
   posix::Descriptor& file = temporary.file();
   if (!file) return refuse(path, "create a file in its folder", errno, diagnostics);
   if (!append_all(pieces, file.get(), path, diagnostics)) return false;
-  if (target.exists && !copy_mode(file.get(), target.status))
+  if (!set_mode(file.get(), target, settings.mode))
     return refuse(path, "set the mode", errno, diagnostics);
   struct stat written {};
   if (!flush(file.get()) || ::fstat(file.get(), &written) != 0)
@@ -234,6 +285,7 @@ bool write_file(const std::string& path, const std::vector<Bytes>& pieces,
   if (!file.close()) return refuse(path, "close", errno, diagnostics);
   for (const Bytes& piece : pieces)
     if (piece.file() && !piece.file()->check_unchanged(diagnostics)) return false;
+  if (expected && !is_expected(path, target, *expected)) return refuse_other(path, diagnostics);
   if (!temporary.become(target.path)) return refuse(path, "rename", errno, diagnostics);
   remove_leftovers(target.path, written.st_mtime);
   if (folder && !flush(folder.get()))

@@ -13,7 +13,10 @@
 #include "gltf/rig_check.h"
 #include "gltf/rig_codes.h"
 #include "gltf/rig_json.h"
+#include "gltf/rig_json_orphans.h"
 #include "gltf/rig_nodes.h"
+#include "gltf/rig_replace.h"
+#include "gltf/splice.h"
 
 namespace rigc::gltf {
 namespace {
@@ -24,10 +27,11 @@ struct ArrayRow {
   const char* name;
   Slots Owned::Part::*slots;
 };
-constexpr ArrayRow kArrays[] = {
-    {"nodes", &Owned::Part::nodes},         {"meshes", &Owned::Part::meshes},
-    {"materials", &Owned::Part::materials}, {"skins", &Owned::Part::skins},
-    {"accessors", &Owned::Part::accessors}, {"bufferViews", &Owned::Part::buffer_views}};
+constexpr ArrayRow kArrays[] = {{"meshes", &Owned::Part::meshes},
+                                {"materials", &Owned::Part::materials},
+                                {"skins", &Owned::Part::skins},
+                                {"accessors", &Owned::Part::accessors},
+                                {"bufferViews", &Owned::Part::buffer_views}};
 
 /// Counts what a patch gave out since this was made.
 class Given {
@@ -49,21 +53,44 @@ class Given {
 
 /// Takes a node of the file for each that is to be written, because their texts name one another:
 /// joints and what carries them, proxies, what strip takes away. Gives the nodes of the proxies.
-std::vector<int> take_numbers(Patch& patch, Rig& rig, const NodePlan& plan,
-                              const std::vector<ProxyGroup>& groups, Given& given) {
-  std::vector<int> proxies;
-  rig.nodes = plan.foreign;
-  for (const NodeId id : plan.stays) rig.nodes[id.index] = patch.append("nodes", "{}");
-  for (const ProxyGroup& group : groups) {
-    proxies.push_back(patch.append("nodes", "{}"));
-    int& node = rig.nodes[group.mesh.index];
-    if (node < 0) node = proxies.back();
+class NumberTaker {
+ public:
+  NumberTaker(Patch& patch, Rig& rig, const Places& places)
+      : patch_(patch), rig_(rig), places_(places) {}
+
+  std::vector<int> take(const NodePlan& plan, const std::vector<ProxyGroup>& groups) {
+    std::vector<int> proxies;
+    rig_.nodes = plan.foreign;
+    for (const NodeId id : plan.stays) rig_.nodes[id.index] = number(place_of(id));
+    for (const ProxyGroup& group : groups) {
+      int& node = rig_.nodes[group.mesh.index];
+      proxies.push_back(number(node < 0 ? place_of(group.mesh) : -1));
+      if (node < 0) node = proxies.back();
+    }
+    move_to(rig_.owned.stays);
+    for (const NodeId id : plan.goes) rig_.nodes[id.index] = number(place_of(id));
+    for (Orphan& orphan : rig_.orphans) orphan.node = number(orphan.node);
+    move_to(rig_.owned.goes);
+    return proxies;
   }
-  given.move_to(rig.owned.stays);
-  for (const NodeId id : plan.goes) rig.nodes[id.index] = patch.append("nodes", "{}");
-  given.move_to(rig.owned.goes);
-  return proxies;
-}
+
+ private:
+  int place_of(NodeId id) const { return places_.nodes.empty() ? -1 : places_.nodes[id.index]; }
+  int number(int place) {
+    const int node = place >= 0 ? place : patch_.append("nodes", "{}");
+    taken_.insert(node);
+    return node;
+  }
+  void move_to(Owned::Part& part) {
+    for (const int node : taken_) part.nodes.add(node);
+    taken_.clear();
+  }
+
+  Patch& patch_;
+  Rig& rig_;
+  const Places& places_;
+  std::set<int> taken_;
+};
 
 /// Appends meshes and skins of proxies and gives the texts of their nodes; empty where a number is
 /// too large.
@@ -136,11 +163,45 @@ void add_roots(Patch& patch, const std::vector<int>& scenes, int node) {
     scene < 0 ? patch.add_child(-1, node) : patch.add_root(scene, node);
 }
 
-void write_nodes(Patch& patch, const Rig& rig, const NodePlan& plan,
-                 const std::vector<int>& meshes) {
+/// Hangs a node where the rig's roots hang.
+void add_top(Patch& patch, const Rig& rig, const std::vector<int>& scenes, int node) {
+  if (rig.ancestor >= 0)
+    patch.add_child(rig.ancestor, node);
+  else
+    add_roots(patch, scenes, node);
+}
+
+/// A node of ours with what others added to it.
+std::string with_additions(const std::string& text, const Additions& additions) {
+  Diagnostics none;
+  const auto document = json::parse(text, "", 0, none);
+  if (!document) return text;
+  std::string children, extras(document->root()["extras"].text());
+  for (const json::Value& child : document->root()["children"].items())
+    children += (children.empty() ? "" : ",") + std::string(child.text());
+  for (const int child : additions.children)
+    children += (children.empty() ? "" : ",") + std::to_string(child);
+  for (const auto& [name, value] : additions.extras)
+    if (!document->root()["extras"][name]) extras = with_member(extras, name, value);
+  std::string out = text;
+  if (!children.empty()) out = with_member(out, "children", '[' + children + ']');
+  if (!extras.empty()) out = with_member(out, "extras", extras);
+  for (const auto& [name, value] : additions.members)
+    if (!document->root()[name]) out = with_member(out, name, value);
+  return out;
+}
+
+void write_node(Patch& patch, int node, std::string text, const Places& places) {
+  const auto additions = places.additions.find(node);
+  if (additions != places.additions.end()) text = with_additions(text, additions->second);
+  patch.replace("nodes", node, std::move(text));
+}
+
+void write_nodes(Patch& patch, const Rig& rig, const NodePlan& plan, const std::vector<int>& meshes,
+                 const Places& places) {
   for (const auto* part : {&plan.stays, &plan.goes})
     for (const NodeId id : *part)
-      patch.replace("nodes", rig.nodes[id.index], node_text(rig, plan, id, meshes[id.index]));
+      write_node(patch, rig.nodes[id.index], node_text(rig, plan, id, meshes[id.index]), places);
 }
 
 /// Identities of the model's joints, and what hangs under them or under the ancestor.
@@ -152,19 +213,26 @@ void join_to_model(Patch& patch, const Rig& rig, const NodePlan& plan,
     if (const int foreign = plan.foreign[id.index]; foreign >= 0) {
       Identity identity = rig.scene[id].identity;
       identity.rig = rig.id;
-      if (!has_foreign_mark(nodes[static_cast<std::size_t>(foreign)]))
+      const json::Value& now = nodes[static_cast<std::size_t>(foreign)];
+      if (!has_foreign_mark(now) && now["extras"]["rigc"].string() != to_text(identity))
         patch.set_extra(foreign, "rigc", json::quote(to_text(identity)));
     } else if (scene::spec(rig.scene[id].kind).is_transform) {
       if (parent.valid()) {
         if (plan.foreign[parent.index] >= 0)
           patch.add_child(plan.foreign[parent.index], rig.nodes[id.index]);
-      } else if (rig.ancestor >= 0) {
-        patch.add_child(rig.ancestor, rig.nodes[id.index]);
       } else {
-        add_roots(patch, scenes, rig.nodes[id.index]);
+        add_top(patch, rig, scenes, rig.nodes[id.index]);
       }
     }
   }
+}
+
+/// A file's text holds the rig as it was built; what animators set is on the nodes.
+std::string rig_text(const Rig& rig, const Sources& sources) {
+  if (rig.posed.empty()) return to_json(rig, sources);
+  Rig built = rig;
+  built.scene = built_scene(rig);
+  return to_json(built, sources);
 }
 
 /// RIGC_rig with this rig in the place of the one with its id, if there is one, else behind the
@@ -179,7 +247,7 @@ std::string extension_text(const Patch& patch, const Rig& rig, const Sources& so
       rigs.emplace_back(item["id"].integer().value_or(-1), std::string(item.text()));
   }
   std::erase_if(rigs, [&](const auto& other) { return other.first == rig.id; });
-  rigs.emplace_back(rig.id, to_json(rig, sources));
+  rigs.emplace_back(rig.id, rig_text(rig, sources));
   std::stable_sort(rigs.begin(), rigs.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   json::Writer writer;
@@ -204,29 +272,38 @@ void Slots::add(int index) {
     runs.push_back({index, 1});
 }
 
-bool write_rig(Patch& patch, Rig& rig, int ancestor, Diagnostics& diagnostics) {
+bool write_rig(Patch& patch, Rig& rig, int ancestor, const Places& places,
+               Diagnostics& diagnostics) {
   if (!check_writable(rig, diagnostics)) return false;
   const NodePlan plan = plan_nodes(rig, ancestor);
   const std::vector<ProxyGroup> proxies = proxy_groups(rig.scene, plan.roots);
   rig.ancestor = ancestor;
   rig.owned = {};
+  const std::vector<int> numbers = NumberTaker(patch, rig, places).take(plan, proxies);
   Given given(patch);
-  const std::vector<int> numbers = take_numbers(patch, rig, plan, proxies, given);
   const auto proxy_nodes = write_proxies(patch, rig, proxies, diagnostics);
   if (!proxy_nodes) return false;
   given.move_to(rig.owned.stays);
   const std::vector<int> meshes = write_shapes(patch, rig.scene);
   given.move_to(rig.owned.goes);
-  write_nodes(patch, rig, plan, meshes);
+  write_nodes(patch, rig, plan, meshes, places);
   const std::vector<int> scenes = scenes_of(patch.file(), plan);
   for (std::size_t i = 0; i < proxies.size(); ++i) {
-    patch.replace("nodes", numbers[i], (*proxy_nodes)[i]);
+    write_node(patch, numbers[i], (*proxy_nodes)[i], places);
     // Under a parent, validators warn: the transform of a skinned mesh's node is ignored.
     add_roots(patch, scenes, numbers[i]);
   }
   join_to_model(patch, rig, plan, scenes);
+  for (const Orphan& orphan : rig.orphans) {
+    write_node(patch, orphan.node, orphan_text(rig, orphan), places);
+    add_top(patch, rig, scenes, orphan.node);
+  }
   patch.set_root_extension("RIGC_rig", extension_text(patch, rig, diagnostics.sources()));
   return true;
+}
+
+bool write_rig(Patch& patch, Rig& rig, int ancestor, Diagnostics& diagnostics) {
+  return write_rig(patch, rig, ancestor, {}, diagnostics);
 }
 
 }  // namespace rigc::gltf

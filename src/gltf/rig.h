@@ -53,6 +53,28 @@ struct Owned {
   bool operator==(const Owned&) const = default;
 };
 
+/// A value that an animator set without keying it.
+struct Posed {
+  scene::Plug plug;    ///< translate, rotation or scale of a control, or an attribute of a user
+  scene::Value built;  ///< what the build gave it
+};
+
+/// Keys and values of a node that its rig no longer has, or of attributes that the node no longer
+/// has: an empty node of the file holds them until what they belong to is back.
+struct Orphan {
+  int node = -1;      ///< glTF node that holds them
+  Identity identity;  ///< of the node that they belong to
+  std::string name;   ///< its name, for people
+  Identifiers ids;
+  scene::Kind kind = scene::Kind::control;
+  std::string module;  ///< that made it
+  math::Mat3 space;    ///< axes of its parent at rest, rig space: what its transform is seen from
+  math::Trs rest;      ///< of the node in that space
+  math::Trs local;     ///< what is held, in that space
+  std::vector<scene::UserAttribute>
+      attributes;  ///< that are held; `initial` is what the build gave
+};
+
 struct Rig {
   /// Number of the rig, unique in its file.
   std::uint32_t id = 0;
@@ -62,13 +84,20 @@ struct Rig {
   std::vector<std::pair<std::string, int>> modules;
   /// In the order they ran; Node::command is an index into it.
   std::vector<CommandRecord> commands;
+  /// With what animators set: as the file stands.
   scene::Scene scene;
+  /// What they set, and what it was before.
+  std::vector<Posed> posed;
+  std::vector<Orphan> orphans;
   /// glTF node of each scene node, -1: none (constraints and other utilities).
   std::vector<int> nodes;
   /// glTF node that the rig's roots are under: the rig's space; -1: the scene.
   int ancestor = -1;
   Owned owned;
 };
+
+/// The scene of a rig as it was built: without what animators set.
+scene::Scene built_scene(const Rig& rig);
 
 /// Adds a rig to a file (or to empty_file()): nodes, control shapes, proxy mesh and skin, RIGC_rig,
 /// identities. Joints with a foreign node keep it untouched but for extras.rigc and children of
@@ -101,6 +130,23 @@ inline void strip_rig(Patch& patch, const File& file, const Rig& rig,
                       Strip remains = Strip::character) {
   strip_rigs(patch, file, {rig}, remains);
 }
+
+/// A rig that takes the place of another, as an update makes it.
+struct Replacement {
+  const Rig* old = nullptr;  ///< as it was read from the file
+  Rig* fresh = nullptr;      ///< nodes and owned are filled; its orphans may hold a node of `old`
+  std::vector<int> places;  ///< by scene node of `fresh`: glTF node of `old` that it takes over, -1
+  Sources sources;          ///< that spans of `fresh` point into
+};
+
+/// By scene node: its glTF node where that is the rig's own and no joint of the model; else -1.
+std::vector<int> own_nodes(const Rig& rig);
+
+/// Takes rigs out and writes their successors. A node that takes over one of the old rig keeps its
+/// index and whatever others added to it: children, extras, extensions. Nodes that skins of others
+/// use or that carry something of others stay. False where a rig cannot be written.
+bool replace_rigs(Patch& patch, const File& file, std::vector<Replacement>& replacements,
+                  Diagnostics& diagnostics);
 
 /// Where a joint's node stands in its file, which may differ from the scene: a foreign node keeps
 /// its parent and the transform that its author left it in.

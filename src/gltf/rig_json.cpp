@@ -3,6 +3,7 @@
 #include "gltf/rig_json.h"
 
 #include "gltf/rig_codes.h"
+#include "gltf/rig_json_orphans.h"
 #include "gltf/rig_json_scene.h"
 #include "gltf/rig_json_skeleton.h"
 
@@ -100,6 +101,7 @@ std::string to_json(const Rig& rig, const Sources& sources) {
   writer.key("files").begin_array();
   for (const std::string& file : places.files()) writer.value(file);
   writer.end_array();
+  write_orphans(writer, rig);
   write_owned(writer, rig.owned);
   return writer.end_object().take();
 }
@@ -117,6 +119,7 @@ std::optional<Rig> from_json(const json::Value& object, const std::string& file,
   read_commands(object, reader, places, rig);
   read_owned(object, reader, rig.owned);
   if (reader.ok()) read_scene(object, reader, places, rig);
+  if (reader.ok()) read_orphans(object, reader, rig);
   if (room) *room = reader.room();
   if (!reader.ok()) return std::nullopt;
   return rig;

@@ -21,12 +21,6 @@ void write_keys(json::Writer& writer, const std::vector<JointKey>& keys) {
   writer.end_array();
 }
 
-void write_rest(json::Writer& writer, const math::Trs& rest) {
-  if (rest.translation != math::Vec3{}) writer.key("translation").numbers(&rest.translation.x, 3);
-  if (rest.rotation != math::Quat{}) writer.key("rotation").numbers(&rest.rotation.x, 4);
-  if (rest.scale != math::Vec3{1, 1, 1}) writer.key("scale").numbers(&rest.scale.x, 3);
-}
-
 void write_feature_tags(json::Writer& writer, const tags::TaggedJoint& joint, PlaceWriter& places) {
   if (joint.features.empty()) return;
   writer.key("features").begin_array();
@@ -163,6 +157,12 @@ tags::TaggedJoint read_joint(const json::Value& item, JsonReader& reader, PlaceR
 }
 
 }  // namespace
+
+void write_rest(json::Writer& writer, const math::Trs& rest) {
+  if (rest.translation != math::Vec3{}) writer.key("translation").numbers(&rest.translation.x, 3);
+  if (rest.rotation != math::Quat{}) writer.key("rotation").numbers(&rest.rotation.x, 4);
+  if (rest.scale != math::Vec3{1, 1, 1}) writer.key("scale").numbers(&rest.scale.x, 3);
+}
 
 void write_identifiers(json::Writer& writer, const Identifiers& ids, const std::string& global) {
   if (ids.global != global) writer.member("global", ids.global);

@@ -13,6 +13,9 @@ void write_identifiers(json::Writer& writer, const Identifiers& ids, const std::
 void read_identifiers(const json::Value& object, JsonReader& reader, const std::string& global,
                       Identifiers& out);
 
+/// `translation`, `rotation`, `scale` where they are not those of the identity.
+void write_rest(json::Writer& writer, const math::Trs& rest);
+
 void write_joints(json::Writer& writer, const tags::TaggedSkeleton& skeleton, PlaceWriter& places);
 void read_joints(const json::Value& rig, JsonReader& reader, PlaceReader& places,
                  tags::TaggedSkeleton& out);

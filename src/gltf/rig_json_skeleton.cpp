@@ -213,4 +213,11 @@ void read_skeleton(const json::Value& rig, JsonReader& reader, PlaceReader& plac
   read_joints(rig, reader, places, out);
 }
 
+std::vector<tags::TemplateReference> read_template_references(const json::Value& rig,
+                                                              JsonReader& reader) {
+  tags::TaggedSkeleton skeleton;
+  read_templates(rig, reader, skeleton);
+  return std::move(skeleton.templates);
+}
+
 }  // namespace rigc::gltf

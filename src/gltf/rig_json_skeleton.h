@@ -18,6 +18,10 @@ void read_skeleton(const json::Value& rig, JsonReader& reader, PlaceReader& plac
 void write_settings(json::Writer& writer, const tags::Settings& settings);
 void read_settings(const json::Value& rig, JsonReader& reader, tags::Settings& out);
 
+/// Member `templates`.
+std::vector<tags::TemplateReference> read_template_references(const json::Value& rig,
+                                                              JsonReader& reader);
+
 /// `[{"name": ..., "version": ...}]`
 void write_versions(json::Writer& writer, const std::vector<std::pair<std::string, int>>& modules);
 std::vector<std::pair<std::string, int>> read_versions(const json::Value& object,

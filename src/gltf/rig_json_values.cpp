@@ -158,12 +158,12 @@ void read_user(const json::Value& item, JsonReader& reader, SceneMaker& maker, N
   reader.get(item, "keyable", attribute.keyable);
   reader.get(item, "hidden", attribute.hidden);
   if (!reader.ok()) return;
-  const auto found = std::find(kFlavours.begin(), kFlavours.end(), flavour);
-  if (found == kFlavours.end())
+  const auto known = parse_flavour(flavour);
+  if (!known)
     return reader.fail(codes::kRigWord, item["flavour"],
                        fmt::format("attributes are number, integer, boolean or angle, not \"{}\"",
                                    printable(flavour)));
-  attribute.flavour = static_cast<scene::UserAttribute::Flavour>(found - kFlavours.begin());
+  attribute.flavour = *known;
   if (!is_name(attribute.name) || attribute.name == "rigc")
     return reader.fail(codes::kRigText, item["name"],
                        fmt::format("\"{}\" is no name of an attribute", printable(attribute.name)));
@@ -226,6 +226,12 @@ void read_input(const json::Value& item, JsonReader& reader, SceneMaker& maker, 
 
 std::string_view name_of(scene::UserAttribute::Flavour flavour) {
   return kFlavours[static_cast<std::size_t>(flavour)];
+}
+
+std::optional<scene::UserAttribute::Flavour> parse_flavour(std::string_view name) {
+  const auto found = std::find(kFlavours.begin(), kFlavours.end(), name);
+  if (found == kFlavours.end()) return std::nullopt;
+  return static_cast<scene::UserAttribute::Flavour>(found - kFlavours.begin());
 }
 
 void write_values(json::Writer& writer, const scene::Scene& scene, NodeId id) {

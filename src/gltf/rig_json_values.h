@@ -56,5 +56,6 @@ void read_inputs(const json::Value& object, JsonReader& reader, SceneMaker& make
                  scene::NodeId id);
 
 std::string_view name_of(scene::UserAttribute::Flavour flavour);
+std::optional<scene::UserAttribute::Flavour> parse_flavour(std::string_view name);
 
 }  // namespace rigc::gltf

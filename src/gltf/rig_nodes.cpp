@@ -3,6 +3,7 @@
 // Test: tests/gltf/rig_test.cpp
 #include "gltf/rig_nodes.h"
 
+#include <algorithm>
 #include <map>
 
 #include "base/json.h"
@@ -107,14 +108,12 @@ bool has_foreign_mark(const json::Value& node) {
   return mark && !parse_identity(mark.string().value_or(""));
 }
 
-std::string extras_text(const Rig& rig, NodeId id) {
-  const scene::Node& node = rig.scene[id];
-  Identity identity = node.identity;
-  identity.rig = rig.id;
+std::string extras_text(const std::string& mark,
+                        const std::vector<scene::UserAttribute>& attributes) {
   std::string text = "{";
-  add_member(text, "rigc", json::quote(to_text(identity)));
+  add_member(text, "rigc", json::quote(mark));
   using Flavour = scene::UserAttribute::Flavour;
-  for (const scene::UserAttribute& attribute : node.user) {
+  for (const scene::UserAttribute& attribute : attributes) {
     if (!attribute.keyable) continue;
     const bool whole =
         attribute.flavour == Flavour::integer || attribute.flavour == Flavour::boolean;
@@ -126,16 +125,21 @@ std::string extras_text(const Rig& rig, NodeId id) {
   return text + '}';
 }
 
+std::string extras_text(const Rig& rig, NodeId id) {
+  Identity identity = rig.scene[id].identity;
+  identity.rig = rig.id;
+  return extras_text(to_text(identity), rig.scene[id].user);
+}
+
 std::string node_text(const Rig& rig, const NodePlan& plan, NodeId id, int mesh) {
   const scene::Node& node = rig.scene[id];
-  const math::Trs local = rig.scene.local(id);
   std::string text = "{";
   if (!node.name.empty()) add_member(text, "name", json::quote(node.name));
-  if (local.translation != math::Vec3{})
-    add_member(text, "translation", float_list(&local.translation.x, 3));
-  if (local.rotation != math::Quat{})
-    add_member(text, "rotation", float_list(&local.rotation.x, 4));
-  if (local.scale != math::Vec3{1, 1, 1}) add_member(text, "scale", float_list(&local.scale.x, 3));
+  const bool posed = std::any_of(rig.posed.begin(), rig.posed.end(),
+                                 [&](const Posed& one) { return one.plug.node == id; });
+  write_local(rig.scene.local(id), posed, [&](std::string_view name, const std::string& value) {
+    add_member(text, name, value);
+  });
   if (mesh >= 0) add_member(text, "mesh", std::to_string(mesh));
   std::string children;
   for (const NodeId child : plan.children[id.index])

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gltf/float_text.h"
 #include "gltf/rig.h"
 
 namespace rigc::gltf {
@@ -29,8 +30,25 @@ NodePlan plan_nodes(const Rig& rig, int ancestor);
 /// say which joint it is.
 bool has_foreign_mark(const json::Value& node);
 
-/// `{"rigc":"...","ik_fk":1.0}`: identity and keyable attributes.
+/// `{"rigc":"...","ik_fk":1.0}`: who it is, and keyable attributes.
+std::string extras_text(const std::string& mark,
+                        const std::vector<scene::UserAttribute>& attributes);
 std::string extras_text(const Rig& rig, scene::NodeId id);
+
+/// Adds translation, rotation and scale where they are not those of the identity. `exact`: as
+/// doubles, because they came from a file and shall read back as they were.
+template <class Add>
+void write_local(const math::Trs& local, bool exact, Add add) {
+  const auto list = [&](const double* numbers, std::size_t count) {
+    if (!exact) return float_list(numbers, count);
+    json::Writer writer;
+    writer.numbers(numbers, count);
+    return writer.take();
+  };
+  if (local.translation != math::Vec3{}) add("translation", list(&local.translation.x, 3));
+  if (local.rotation != math::Quat{}) add("rotation", list(&local.rotation.x, 4));
+  if (local.scale != math::Vec3{1, 1, 1}) add("scale", list(&local.scale.x, 3));
+}
 
 /// A node of ours. `mesh`: -1 for none.
 std::string node_text(const Rig& rig, const NodePlan& plan, scene::NodeId id, int mesh);

@@ -59,10 +59,25 @@ T held(const T& now, const math::Vec3& components_before, unsigned locked) {
     return math::limit_vector(now, space);
 }
 
-void take_over_transform(const math::Trs& local, SceneMaker& maker, NodeId id, const Place& place,
+/// Changes a scene and remembers what was there.
+class Poser {
+ public:
+  explicit Poser(Rig& rig) : maker_(rig.scene), posed_(rig.posed) {}
+  const scene::Scene& scene() const { return maker_.scene(); }
+  void set(const Plug& plug, const scene::Value& value) {
+    posed_.push_back({plug, scene().value(plug)});
+    maker_.set(plug, value);
+  }
+
+ private:
+  SceneMaker maker_;
+  std::vector<Posed>& posed_;
+};
+
+void take_over_transform(const math::Trs& local, Poser& poser, NodeId id, const Place& place,
                          Diagnostics& diagnostics) {
   namespace transform = scene::transform;
-  const scene::Scene& scene = maker.scene();
+  const scene::Scene& scene = poser.scene();
   const math::Trs before = scene.local(id);
   const auto angles = std::get<math::Vec3>(scene.value({id, transform::kRotate}));
   const unsigned locked = scene::bits_at(scene, id, scene::control::kLocked);
@@ -72,7 +87,7 @@ void take_over_transform(const math::Trs& local, SceneMaker& maker, NodeId id, c
     if (same(now, was)) return;
     const auto value = held(now, components, bits & 7);
     moved = moved || !same(value, now);
-    if (!same(value, was)) maker.set({id, attribute}, value);
+    if (!same(value, was)) poser.set({id, attribute}, value);
   };
   if (!is_driven(scene, id, transform::kTranslate))
     take(transform::kTranslate, local.translation, before.translation, before.translation, locked);
@@ -86,22 +101,22 @@ void take_over_transform(const math::Trs& local, SceneMaker& maker, NodeId id, c
       fmt::format("\"{}\" stands where the rig's locks do not let it", printable(scene[id].name)));
 }
 
-void take_over_attributes(const File& file, const json::Value& extras, SceneMaker& maker, NodeId id,
+void take_over_attributes(const File& file, const json::Value& extras, Poser& poser, NodeId id,
                           Diagnostics& diagnostics) {
-  const std::size_t count = maker.scene()[id].user.size();
+  const std::size_t count = poser.scene()[id].user.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const scene::UserAttribute& attribute = maker.scene()[id].user[i];
+    const scene::UserAttribute& attribute = poser.scene()[id].user[i];
     const Plug plug{id, static_cast<std::uint16_t>(scene::kUserAttributes + i)};
     const json::Value value = extras[attribute.name];
-    if (!value || !attribute.keyable || maker.scene().source(plug)) continue;
+    if (!value || !attribute.keyable || poser.scene().source(plug)) continue;
     std::optional<double> number = value.number();
     if (const auto flag = value.boolean()) number = *flag ? 1 : 0;
     if (!number) {
       diagnostics.report(codes::kExtraNotNumber, Place(file.path, value.pointer()),
                          fmt::format("\"{}\" of \"{}\" is not a number", attribute.name,
-                                     printable(maker.scene()[id].name)));
+                                     printable(poser.scene()[id].name)));
     } else if (!same(*number, attribute.value)) {
-      maker.set(plug, *number);
+      poser.set(plug, *number);
     }
   }
 }
@@ -110,15 +125,23 @@ void take_over_attributes(const File& file, const json::Value& extras, SceneMake
 
 void take_over_pose(const File& file, const Slim& slim, const std::vector<json::Value>& nodes,
                     Rig& rig, Diagnostics& diagnostics) {
-  SceneMaker maker(rig.scene);
+  Poser poser(rig);
   for (const NodeId id : rig.scene.nodes()) {
     const int node = rig.nodes[id.index];
     if (rig.scene[id].kind != scene::Kind::control || node < 0) continue;
-    take_over_transform(slim.node(node).local, maker, id,
+    take_over_transform(slim.node(node).local, poser, id,
                         Place(file.path, fmt::format("/nodes/{}", node)), diagnostics);
-    take_over_attributes(file, nodes[static_cast<std::size_t>(node)]["extras"], maker, id,
+    take_over_attributes(file, nodes[static_cast<std::size_t>(node)]["extras"], poser, id,
                          diagnostics);
   }
+}
+
+scene::Scene built_scene(const Rig& rig) {
+  scene::Scene scene = rig.scene;
+  SceneMaker maker(scene);
+  for (auto posed = rig.posed.rbegin(); posed != rig.posed.rend(); ++posed)
+    maker.set(posed->plug, posed->built);
+  return scene;
 }
 
 }  // namespace rigc::gltf

@@ -10,6 +10,7 @@
 #include "gltf/rig.h"
 #include "gltf/rig_codes.h"
 #include "gltf/rig_json.h"
+#include "gltf/rig_json_orphans.h"
 #include "gltf/rig_json_reader.h"
 #include "gltf/rig_pose.h"
 #include "gltf/slim.h"
@@ -186,6 +187,7 @@ std::optional<std::vector<Rig>> read_rigs(const File& file, Diagnostics& diagnos
   for (Text& text : *texts) {
     complete = resolve_nodes(file, *identities, text, taken, diagnostics) && complete;
     complete = update_foreign_nodes(file, *slim, text, diagnostics) && complete;
+    if (complete) find_orphans(file, *slim, nodes, text.rig, taken, diagnostics);
     if (complete) take_over_pose(file, *slim, nodes, text.rig, diagnostics);
     rigs.push_back(std::move(text.rig));
   }

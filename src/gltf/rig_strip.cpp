@@ -5,6 +5,7 @@
 
 #include "gltf/rig.h"
 #include "gltf/rig_nodes.h"
+#include "gltf/rig_replace.h"
 #include "gltf/uses.h"
 
 namespace rigc::gltf {
@@ -19,6 +20,8 @@ struct Going {
   Indices nodes, meshes, materials, skins;
 };
 
+using Rigs = std::vector<const Rig*>;
+
 int index_of(const Value& value) { return static_cast<int>(value.integer().value_or(-1)); }
 
 /// Proxy meshes: their nodes carry no identity where a mesh has several skins.
@@ -29,19 +32,38 @@ void add_proxies(const std::vector<Value>& nodes, const Rig& rig, Indices& going
       going.insert(static_cast<int>(i));
 }
 
+/// Nodes that bend a skin which stays: they stay with it.
+Indices bones(const File& file, const Rigs& rigs) {
+  Indices out;
+  const auto skins = file.root()["skins"].items();
+  for (std::size_t i = 0; i < skins.size(); ++i) {
+    const bool ours = std::any_of(rigs.begin(), rigs.end(), [&](const Rig* rig) {
+      return rig->owned.stays.skins.contains(static_cast<int>(i));
+    });
+    if (ours) continue;
+    for (const Value& joint : skins[i]["joints"].items()) out.insert(index_of(joint));
+    if (skins[i]["skeleton"]) out.insert(index_of(skins[i]["skeleton"]));
+  }
+  return out;
+}
+
 /// Nodes of the rigs that go, without those that carry something that stays: others may have hung
-/// things there.
-Indices going_nodes(const std::vector<Value>& nodes, const std::vector<Rig>& rigs, Strip remains) {
+/// things there. What a kept node carries stays with it.
+Indices going_nodes(const File& file, const std::vector<Value>& nodes, const Rigs& rigs,
+                    Strip remains, const Indices& kept) {
   Indices going;
-  for (const Rig& rig : rigs) {
-    const NodePlan plan = plan_nodes(rig, rig.ancestor);
+  for (const Rig* rig : rigs) {
+    const NodePlan plan = plan_nodes(*rig, rig->ancestor);
     for (const auto* part : {&plan.goes, &plan.stays}) {
       if (part == &plan.stays && remains == Strip::character) continue;
       for (const NodeId id : *part)
-        if (rig.nodes[id.index] >= 0) going.insert(rig.nodes[id.index]);
+        if (rig->nodes[id.index] >= 0) going.insert(rig->nodes[id.index]);
     }
-    if (remains == Strip::nothing) add_proxies(nodes, rig, going);
+    for (const Orphan& orphan : rig->orphans) going.insert(orphan.node);
+    if (remains == Strip::nothing) add_proxies(nodes, *rig, going);
   }
+  if (remains == Strip::nothing)
+    for (const int bone : bones(file, rigs)) going.erase(bone);
   std::vector<int> parents(nodes.size(), -1);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (const Value& child : nodes[i]["children"].items())
@@ -49,11 +71,14 @@ Indices going_nodes(const std::vector<Value>& nodes, const std::vector<Rig>& rig
   std::vector<bool> carries(nodes.size(), false);  // and so do all above it
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (going.count(static_cast<int>(i))) continue;
-    for (int at = parents[i]; at >= 0 && !carries[static_cast<std::size_t>(at)];
+    for (int at = parents[i];
+         at >= 0 && !carries[static_cast<std::size_t>(at)] && kept.count(at) == 0;
          at = parents[static_cast<std::size_t>(at)])
       carries[static_cast<std::size_t>(at)] = true;
   }
-  std::erase_if(going, [&](int node) { return carries[static_cast<std::size_t>(node)]; });
+  std::erase_if(going, [&](int node) {
+    return carries[static_cast<std::size_t>(node)] || kept.count(node) != 0;
+  });
   return going;
 }
 
@@ -74,12 +99,12 @@ Indices skin_of(const Value& node) {
 
 /// Which elements of an array are the rigs' to take away.
 struct Taking {
-  const std::vector<Rig>& rigs;
+  const Rigs& rigs;
   Strip remains;
   bool operator()(Slots Owned::Part::*slots, int index) const {
-    return std::any_of(rigs.begin(), rigs.end(), [&](const Rig& rig) {
-      return (rig.owned.goes.*slots).contains(index) ||
-             (remains == Strip::nothing && (rig.owned.stays.*slots).contains(index));
+    return std::any_of(rigs.begin(), rigs.end(), [&](const Rig* rig) {
+      return (rig->owned.goes.*slots).contains(index) ||
+             (remains == Strip::nothing && (rig->owned.stays.*slots).contains(index));
     });
   }
 };
@@ -97,13 +122,15 @@ Indices released(const std::vector<Value>& users, const Indices& going_users, Na
   return going;
 }
 
-Going find_going(const File& file, const Taking& taking) {
+Going find_going(const File& file, const Taking& taking, const Indices& kept) {
   Going going;
   const auto nodes = file.root()["nodes"].items();
   const auto meshes = file.root()["meshes"].items();
-  going.nodes = going_nodes(nodes, taking.rigs, taking.remains);
-  going.meshes = released(nodes, going.nodes, mesh_of, taking, &Owned::Part::meshes);
-  going.skins = released(nodes, going.nodes, skin_of, taking, &Owned::Part::skins);
+  going.nodes = going_nodes(file, nodes, taking.rigs, taking.remains, kept);
+  Indices left = going.nodes;  // whose meshes and skins go: kept nodes get them anew
+  left.insert(kept.begin(), kept.end());
+  going.meshes = released(nodes, left, mesh_of, taking, &Owned::Part::meshes);
+  going.skins = released(nodes, left, skin_of, taking, &Owned::Part::skins);
   going.materials = released(meshes, going.meshes, materials_of, taking, &Owned::Part::materials);
   return going;
 }
@@ -122,26 +149,31 @@ void release_data(Patch& patch, const File& file, const Going& going, const Taki
     drop(index_of(skins[static_cast<std::size_t>(skin)]["inverseBindMatrices"]));
 }
 
+/// Kept nodes are linked anew, and their own lists written anew, by those who keep them.
 void unlink_nodes(Patch& patch, const std::vector<Value>& nodes, const Value& scenes,
-                  const Indices& going) {
+                  const Indices& going, const Indices& kept) {
+  const auto leaves = [&](const Value& node) {
+    return going.count(index_of(node)) != 0 || kept.count(index_of(node)) != 0;
+  };
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (going.count(static_cast<int>(i))) continue;
+    if (going.count(static_cast<int>(i)) || kept.count(static_cast<int>(i))) continue;
     for (const Value& child : nodes[i]["children"].items())
-      if (going.count(index_of(child))) patch.remove_child(static_cast<int>(i), index_of(child));
+      if (leaves(child)) patch.remove_child(static_cast<int>(i), index_of(child));
   }
   for (const Value& scene : scenes.items())
     for (const Value& root : scene["nodes"].items())
-      if (going.count(index_of(root))) patch.remove_child(-1, index_of(root));
+      if (leaves(root)) patch.remove_child(-1, index_of(root));
 }
 
 /// Takes identities, attributes and shapes from nodes that stay.
 void clean_nodes(Patch& patch, const std::vector<Value>& nodes, const Going& going,
-                 const Rig& rig) {
+                 const Kept& kept, const Rig& rig) {
   const NodePlan plan = plan_nodes(rig, rig.ancestor);
   for (const NodeId id : rig.scene.nodes()) {
     const int node = rig.nodes[id.index];
-    if (node < 0 || going.nodes.count(node)) continue;
-    if (!has_foreign_mark(nodes[static_cast<std::size_t>(node)])) patch.set_extra(node, "rigc", "");
+    if (node < 0 || going.nodes.count(node) || kept.nodes.count(node)) continue;
+    const bool marked = !has_foreign_mark(nodes[static_cast<std::size_t>(node)]);
+    if (marked && kept.joints.count(node) == 0) patch.set_extra(node, "rigc", "");
     for (const scene::UserAttribute& attribute : rig.scene[id].user)
       if (attribute.keyable && plan.foreign[id.index] < 0)
         patch.set_extra(node, attribute.name, "");
@@ -149,10 +181,13 @@ void clean_nodes(Patch& patch, const std::vector<Value>& nodes, const Going& goi
     if (rig.scene[id].kind == scene::Kind::control && rig.owned.goes.meshes.contains(mesh))
       patch.set_member("nodes", node, "mesh", "");
   }
+  for (const Orphan& orphan : rig.orphans)
+    if (going.nodes.count(orphan.node) == 0 && kept.nodes.count(orphan.node) == 0)
+      patch.set_extra(orphan.node, "rigc", "");
 }
 
 /// The texts of the rigs that stay; empty where none does.
-std::string remaining_rigs(const Patch& patch, const std::vector<Rig>& stripped) {
+std::string remaining_rigs(const Patch& patch, const Rigs& stripped) {
   const std::string extension = patch.root_extension("RIGC_rig");
   Diagnostics none;
   const auto document = json::parse(extension, "", 0, none);
@@ -162,8 +197,8 @@ std::string remaining_rigs(const Patch& patch, const std::vector<Rig>& stripped)
   writer.begin_object().key("version").raw(document->root()["version"].text());
   writer.key("before").raw(patch.before()).key("rigs").begin_array();
   for (const Value& item : document->root()["rigs"].items()) {
-    const bool goes = std::any_of(stripped.begin(), stripped.end(), [&](const Rig& rig) {
-      return item["id"].integer() == static_cast<std::int64_t>(rig.id);
+    const bool goes = std::any_of(stripped.begin(), stripped.end(), [&](const Rig* rig) {
+      return item["id"].integer() == static_cast<std::int64_t>(rig->id);
     });
     if (goes) continue;
     writer.raw("\n" + std::string(item.text()));
@@ -175,13 +210,13 @@ std::string remaining_rigs(const Patch& patch, const std::vector<Rig>& stripped)
 
 }  // namespace
 
-std::set<int> strip_rigs(Patch& patch, const File& file, const std::vector<Rig>& rigs,
-                         Strip remains) {
+std::set<int> strip_but(Patch& patch, const File& file, const Rigs& rigs, Strip remains,
+                        const Kept& kept) {
   const auto nodes = file.root()["nodes"].items();
   const Taking taking{rigs, remains};
-  const Going going = find_going(file, taking);
-  for (const Rig& rig : rigs) clean_nodes(patch, nodes, going, rig);
-  unlink_nodes(patch, nodes, file.root()["scenes"], going.nodes);
+  const Going going = find_going(file, taking, kept.nodes);
+  for (const Rig* rig : rigs) clean_nodes(patch, nodes, going, kept, *rig);
+  unlink_nodes(patch, nodes, file.root()["scenes"], going.nodes, kept.nodes);
   release_data(patch, file, going, taking);
   const std::pair<const char*, const Indices*> arrays[] = {{"nodes", &going.nodes},
                                                            {"meshes", &going.meshes},
@@ -191,6 +226,13 @@ std::set<int> strip_rigs(Patch& patch, const File& file, const std::vector<Rig>&
     for (const int index : *indices) patch.release(array, index);
   patch.set_root_extension("RIGC_rig", remaining_rigs(patch, rigs));
   return going.nodes;
+}
+
+std::set<int> strip_rigs(Patch& patch, const File& file, const std::vector<Rig>& rigs,
+                         Strip remains) {
+  Rigs pointers;
+  for (const Rig& rig : rigs) pointers.push_back(&rig);
+  return strip_but(patch, file, pointers, remains, {});
 }
 
 }  // namespace rigc::gltf

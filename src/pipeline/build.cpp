@@ -156,36 +156,42 @@ std::optional<Prepared> prepare(const BuildRequest& request, Diagnostics& diagno
   if (!skeleton || !read_settings(request, *expanded, out.settings, diagnostics))
     return std::nullopt;
   if (!request.global.empty()) tags::set_global(*skeleton, request.global);
-  if (!tags::apply(*skeleton, out.settings, diagnostics)) return std::nullopt;
-  out.skeleton = std::move(*skeleton);
+  out.declared = *std::move(skeleton);
   told(request, request.model.empty() ? "place" : "fit");
+  if (!list_commands(out, request, out.catalogue, diagnostics)) return std::nullopt;
+  told(request, "list");
+  return out;
+}
 
-  auto commands = processor::list(out.skeleton, out.catalogue, diagnostics);
+bool list_commands(Compilation& out, const BuildRequest& request,
+                   const catalog::Catalogue& catalogue, Diagnostics& diagnostics) {
+  out.skeleton = out.declared;
+  if (!tags::apply(out.skeleton, out.settings, diagnostics)) return false;
+  auto commands = processor::list(out.skeleton, catalogue, diagnostics);
   if (commands && !request.only.empty()) {
     commands = processor::only(std::move(*commands), out.skeleton, request.only, diagnostics);
   }
-  if (!commands) return std::nullopt;
+  if (!commands) return false;
   out.end = request.skeleton_only ? 0 : commands->commands.size();
   if (!request.until.empty()) {
     const auto end = processor::until(*commands, out.skeleton, request.until, diagnostics);
-    if (!end) return std::nullopt;
+    if (!end) return false;
     out.end = std::min(out.end, *end);
   }
   out.commands = std::move(*commands);
-  told(request, "list");
-  return out;
+  return true;
 }
 
 namespace {
 
 /// What ran, for the file and for people.
-void record_commands(const Prepared& prepared, const processor::Processor& processor,
+void record_commands(const Compilation& compilation, const processor::Processor& processor,
                      const Sources& sources, gltf::Rig& rig) {
   std::map<std::string, int> versions;
   for (std::size_t i = 0; i < processor.position(); ++i) {
-    const processor::Command& command = prepared.commands.commands[i];
-    const tags::TaggedJoint& joint = prepared.skeleton.joints[command.joint];
-    const tags::CommandTag& tag = tag_of(prepared.skeleton, command);
+    const processor::Command& command = compilation.commands.commands[i];
+    const tags::TaggedJoint& joint = compilation.skeleton.joints[command.joint];
+    const tags::CommandTag& tag = tag_of(compilation.skeleton, command);
     rig.commands.push_back({joint.key, joint.name, tag.id, tag.module, !processor.skipped(i),
                             std::string(sources.name(tag.span.file)),
                             static_cast<int>(tag.span.line)});
@@ -196,26 +202,34 @@ void record_commands(const Prepared& prepared, const processor::Processor& proce
 
 }  // namespace
 
+std::optional<gltf::Rig> run_commands(const Compilation& compilation,
+                                      const catalog::Catalogue& catalogue, std::size_t& skipped,
+                                      Diagnostics& diagnostics) {
+  processor::Processor processor(compilation.skeleton, compilation.commands, catalogue,
+                                 compilation.rig_id);
+  if (!processor.go_to(compilation.end, diagnostics)) return std::nullopt;
+  gltf::Rig rig;
+  rig.id = compilation.rig_id;
+  rig.settings = compilation.settings;
+  record_commands(compilation, processor, diagnostics.sources(), rig);
+  for (std::size_t i = 0; i < processor.position(); ++i) skipped += processor.skipped(i) ? 1 : 0;
+  rig.scene = processor.take_scene();
+  rig.skeleton = compilation.declared;
+  return rig;
+}
+
 std::optional<Built> build(const BuildRequest& request, const std::string& out,
                            Diagnostics& diagnostics) {
   if (!check_output_name(out, diagnostics)) return std::nullopt;
   auto prepared = prepare(request, diagnostics);
   if (!prepared) return std::nullopt;
 
-  processor::Processor processor(prepared->skeleton, prepared->commands, prepared->catalogue,
-                                 prepared->rig_id);
-  if (!processor.go_to(prepared->end, diagnostics)) return std::nullopt;
-  told(request, "run");
-
   Built built;
+  auto rig = run_commands(*prepared, prepared->catalogue, built.skipped, diagnostics);
+  if (!rig) return std::nullopt;
+  told(request, "run");
+  built.rig = *std::move(rig);
   built.fit = std::move(prepared->fit);
-  built.rig.id = prepared->rig_id;
-  built.rig.settings = prepared->settings;
-  record_commands(*prepared, processor, diagnostics.sources(), built.rig);
-  for (std::size_t i = 0; i < processor.position(); ++i)
-    built.skipped += processor.skipped(i) ? 1 : 0;
-  built.rig.scene = processor.take_scene();
-  built.rig.skeleton = std::move(prepared->skeleton);
   if (!check_evaluates(built.rig.scene, diagnostics)) return std::nullopt;
   told(request, "compile");
 

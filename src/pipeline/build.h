@@ -33,18 +33,33 @@ struct BuildRequest {
       on_stage;  ///< told when a stage ends, for --time; may be empty
 };
 
-/// Everything up to the commands: what `plan`, `check` and `build` share.
-struct Prepared {
-  catalog::Catalogue catalogue;
-  std::optional<gltf::File> model;
-  int ancestor = -1;         ///< glTF node that the rig goes under
-  std::uint32_t rig_id = 0;  ///< number of the rig in the file
-  tags::TaggedSkeleton skeleton;
+/// What a skeleton and settings become before anything runs.
+struct Compilation {
+  std::uint32_t rig_id = 0;       ///< number of the rig in the file
+  tags::TaggedSkeleton declared;  ///< tags as the template has them
   tags::Settings settings;
-  bool needs_outside = false;  ///< the template is a part: its commands name groups of an outer one
-  templates::FitReport fit;
+  tags::TaggedSkeleton skeleton;  ///< with the settings applied
   processor::CommandList commands;
   std::size_t end = 0;  ///< how many commands run
+};
+
+/// From `declared` and `settings` to the commands; the request says how far to run.
+bool list_commands(Compilation& compilation, const BuildRequest& request,
+                   const catalog::Catalogue& catalogue, Diagnostics& diagnostics);
+
+/// Runs the commands; nodes of the file and `owned` are still to be found. `skipped`: commands that
+/// did not run because an optional selector was empty.
+std::optional<gltf::Rig> run_commands(const Compilation& compilation,
+                                      const catalog::Catalogue& catalogue, std::size_t& skipped,
+                                      Diagnostics& diagnostics);
+
+/// Everything up to the commands: what `plan`, `check` and `build` share.
+struct Prepared : Compilation {
+  catalog::Catalogue catalogue;
+  std::optional<gltf::File> model;
+  int ancestor = -1;           ///< glTF node that the rig goes under
+  bool needs_outside = false;  ///< the template is a part: its commands name groups of an outer one
+  templates::FitReport fit;
 };
 std::optional<Prepared> prepare(const BuildRequest& request, Diagnostics& diagnostics);
 

@@ -18,16 +18,6 @@ namespace {
 
 constexpr std::uint64_t kLargestCopy = std::uint64_t{4} << 30;
 
-bool same_bytes(const Bytes& a, const Bytes& b, Diagnostics& diagnostics) {
-  constexpr std::uint64_t kBlock = std::uint64_t{1} << 20;
-  if (a.size() != b.size()) return false;
-  for (std::uint64_t at = 0; at < a.size(); at += kBlock) {
-    const auto left = a.part(at, kBlock).text(diagnostics);
-    const auto right = b.part(at, kBlock).text(diagnostics);
-    if (!left || left != right) return false;
-  }
-  return true;
-}
 
 /// Gathers what is to be copied: nothing where a file lies on its place, or where it was missing
 /// already. False where another file lies there.
@@ -104,6 +94,14 @@ class Copies {
   std::map<std::string, Bytes> list_;  ///< by the path that they go to
 };
 
+/// A file that is written over itself must still be the one that was read.
+WriteSettings replacing(const gltf::File& file, const std::string& out) {
+  WriteSettings settings;
+  const auto from = resolved_path(file.path);
+  if (from && from == resolved_path(out)) settings.expected = file.whole.version();
+  return settings;
+}
+
 }  // namespace
 
 bool check_output_name(const std::string& out, Diagnostics& diagnostics) {
@@ -126,7 +124,7 @@ bool write_output(gltf::Patch& patch, const gltf::File& file, const std::string&
       return false;
   }
   bytes = output->size();
-  return write_file(out, output->pieces, diagnostics);
+  return write_file(out, output->pieces, diagnostics, replacing(file, out));
 }
 
 }  // namespace rigc::pipeline

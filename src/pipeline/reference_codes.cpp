@@ -13,9 +13,11 @@
 #include "gltf/merge_codes.h"
 #include "gltf/rig_codes.h"
 #include "modules/codes.h"
+#include "pipeline/batch_codes.h"
 #include "pipeline/codes.h"
 #include "pipeline/merge_codes.h"
 #include "pipeline/reference.h"
+#include "pipeline/update_codes.h"
 #include "processor/codes.h"
 #include "scene/codes.h"
 #include "selector/codes.h"
@@ -50,6 +52,8 @@ std::vector<const Code*> all_codes() {
   add(gltf::codes::kMergeCodes, codes);
   add(gltf::codes::kRigCodes, codes);
   add(pipeline::codes::kPipelineCodes, codes);
+  add(pipeline::codes::kUpdateCodes, codes);
+  add(pipeline::codes::kBatchCodes, codes);
   add(pipeline::codes::kMergeFileCodes, codes);
   std::sort(codes.begin(), codes.end(),
             [](const Code* a, const Code* b) { return a->number < b->number; });

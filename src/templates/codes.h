@@ -192,6 +192,24 @@ inline constexpr Code kMirrorImage{
 inline constexpr Code kBadModel{350, Severity::error, "skeleton is malformed",
                                 "The skeleton's joints do not form a forest."};
 
+// Versions of templates and modules.
+inline constexpr Code kVersionTwice{
+    352, Severity::warning, "two files are one version of a template",
+    "A template's name and version say which one a rig was made from and which is newer. Two files "
+    "of one folder claim the same ones."};
+inline constexpr Code kClamped{
+    353, Severity::warning, "value lies outside of the module's newer range",
+    "The command was written for an earlier version of the module, which allowed the value. The "
+    "nearest value that the module takes now is used."};
+inline constexpr Code kArgumentTwice{354, Severity::error, "parameter is given by two names",
+                                     "The template is pinned to an earlier version of the module: "
+                                     "the parameter may have its earlier "
+                                     "or its present name, but not both."};
+inline constexpr Code kArgumentGone{355, Severity::warning, "module has no such parameter any more",
+                                    "The command was written for an earlier version of the module, "
+                                    "whose parameter is gone. What it "
+                                    "said has no effect."};
+
 inline constexpr Code kBadSides{380, Severity::error, "sides of a map cannot be read",
                                 "`sides: {l: Left, r: Right}` says what {s} in a key and {side} in "
                                 "a bone's name stand for. A line for both sides has both."};
@@ -266,6 +284,10 @@ inline constexpr const Code* kTemplatesCodes[] = {&kUnknownFormat,
                                                   &kBuiltOtherwise,
                                                   &kMirrorImage,
                                                   &kBadModel,
+                                                  &kVersionTwice,
+                                                  &kClamped,
+                                                  &kArgumentTwice,
+                                                  &kArgumentGone,
                                                   &kBadSides,
                                                   &kMapEntryTwice,
                                                   &kMapEntryIdle,

@@ -316,7 +316,8 @@ tags::TaggedSkeleton Fitter::run() {
 
 std::optional<tags::TaggedSkeleton> fit(const Expanded& expanded,
                                         const tags::ForeignSkeleton& model, const Map& map,
-                                        FitReport& report, Diagnostics& diagnostics) {
+                                        FitReport& report, Diagnostics& diagnostics,
+                                        const Bindings* known) {
   report.map = map.name;
   if (!is_forest(model)) {
     diagnostics.report(codes::kBadModel, Place(model.file),
@@ -325,7 +326,7 @@ std::optional<tags::TaggedSkeleton> fit(const Expanded& expanded,
   }
   const auto placed = place(expanded, diagnostics);
   if (!placed) return std::nullopt;
-  const auto matching = match(expanded, model, map, report, diagnostics);
+  const auto matching = match(expanded, model, map, report, diagnostics, known);
   if (!matching) return std::nullopt;
   const Measured measured = measure(expanded, *placed, model, *matching, report, diagnostics);
   return Fitter(expanded, model, *placed, *matching, measured, diagnostics).run();

@@ -4,7 +4,9 @@
 // tests/templates/fit_test.cpp
 #pragma once
 
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,8 +39,17 @@ struct FitReport {
   double height_metres = 0;  ///< extent of the matched joints in world space
 };
 
+/// What an earlier fit of a template to the same model found.
+struct Bindings {
+  std::map<JointKey, int> nodes;  ///< glTF node of each joint that has a bone
+  std::set<JointKey> made;        ///< joints that were made because the model has none
+};
+
+/// `known` counts before the map; with it a required joint that the model lacks is made and not
+/// missing.
 std::optional<tags::TaggedSkeleton> fit(const Expanded& expanded,
                                         const tags::ForeignSkeleton& model, const Map& map,
-                                        FitReport& report, Diagnostics& diagnostics);
+                                        FitReport& report, Diagnostics& diagnostics,
+                                        const Bindings* known = nullptr);
 
 }  // namespace rigc::templates

@@ -27,12 +27,13 @@ Turn turn_of(const ExpandedJoint& joint) {
 class Matcher {
  public:
   Matcher(const Expanded& expanded, const tags::ForeignSkeleton& model, const Map& map,
-          FitReport& report, Diagnostics& diagnostics)
+          FitReport& report, Diagnostics& diagnostics, const Bindings* known)
       : expanded_(expanded),
         model_(model),
         names_(map, model),
         report_(report),
         diagnostics_(diagnostics),
+        known_(known),
         taken_(model.joints.size(), -1) {
     for (const MapEntry& entry : map.entries)
       entries_.emplace(std::pair(entry.local, entry.label), &entry);
@@ -42,6 +43,8 @@ class Matcher {
   std::optional<Matching> run();
 
  private:
+  void take_known();
+  void take_known(std::size_t index, const JointKey& key, const std::map<int, int>& bones);
   const MapEntry* entry_of(const ExpandedJoint& joint) const;
   int take(const std::vector<std::string>& one_of, std::size_t joint, bool* was_taken = nullptr);
   void match_joint(std::size_t index, const MapEntry& entry);
@@ -61,6 +64,7 @@ class Matcher {
   BoneNames names_;
   FitReport& report_;
   Diagnostics& diagnostics_;
+  const Bindings* known_;
   std::map<std::pair<std::string, std::string>, const MapEntry*> entries_;
   std::vector<int> taken_;  ///< for each bone: the expanded joint that has it, or -1
   std::set<int> twists_;
@@ -93,6 +97,33 @@ int Matcher::take(const std::vector<std::string>& one_of, std::size_t joint, boo
     return bone;
   }
   return -1;
+}
+
+/// The bones of a joint, or of a chain's joints, that had this key.
+void Matcher::take_known(std::size_t index, const JointKey& key, const std::map<int, int>& bones) {
+  if (result_.has(index) || result_.made[index]) return;
+  JointKey at = key;
+  for (;; ++at.ordinal) {
+    const auto node = known_->nodes.find(at);
+    const auto bone = node == known_->nodes.end() ? bones.end() : bones.find(node->second);
+    if (bone == bones.end() || taken_[static_cast<std::size_t>(bone->second)] >= 0) break;
+    taken_[static_cast<std::size_t>(bone->second)] = static_cast<int>(index);
+    result_.bones[index].push_back(bone->second);
+    if (!expanded_.joints[index].chain) break;
+  }
+  if (!result_.has(index) && known_->made.count(key)) result_.made[index] = true;
+}
+
+void Matcher::take_known() {
+  std::map<int, int> bones;
+  for (std::size_t i = 0; i < model_.joints.size(); ++i)
+    bones.emplace(model_.joints[i].node, static_cast<int>(i));
+  for (std::size_t i = 0; i < expanded_.joints.size(); ++i)
+    take_known(i, expanded_.joints[i].tagged.key, bones);
+  for (std::size_t i = 0; i < expanded_.joints.size(); ++i) {
+    const std::vector<JointKey>& was = expanded_.joints[i].tagged.was;
+    for (auto key = was.rbegin(); key != was.rend(); ++key) take_known(i, *key, bones);
+  }
 }
 
 void Matcher::match_joint(std::size_t index, const MapEntry& entry) {
@@ -144,9 +175,9 @@ void Matcher::match_chain(std::size_t index, const MapEntry& entry) {
 void Matcher::check_missing(std::size_t index) {
   const ExpandedJoint& joint = expanded_.joints[index];
   const std::string& name = joint.tagged.name;
-  if (result_.has(index)) return;
+  if (result_.has(index) || result_.made[index]) return;
   const MapEntry* entry = entry_of(joint);
-  const bool absent = entry && entry->absent;
+  const bool absent = known_ || (entry && entry->absent);
   if (joint.helper || (absent && !joint.tagged.optional)) {
     result_.made[index] = true;
     report_.helpers.push_back(name);
@@ -279,10 +310,12 @@ void Matcher::fill_report() {
 
 std::optional<Matching> Matcher::run() {
   const std::size_t errors_before = diagnostics_.errors();
+  if (known_) take_known();
   for (const Turn turn : {Turn::required, Turn::optional, Turn::chains}) {
     for (std::size_t i = 0; i < expanded_.joints.size(); ++i) {
       const MapEntry* entry = entry_of(expanded_.joints[i]);
       if (!entry || entry->bones.empty() || turn_of(expanded_.joints[i]) != turn) continue;
+      if (result_.has(i) || result_.made[i]) continue;
       if (turn == Turn::chains)
         match_chain(i, *entry);
       else
@@ -299,8 +332,9 @@ std::optional<Matching> Matcher::run() {
 }  // namespace
 
 std::optional<Matching> match(const Expanded& expanded, const tags::ForeignSkeleton& model,
-                              const Map& map, FitReport& report, Diagnostics& diagnostics) {
-  return Matcher(expanded, model, map, report, diagnostics).run();
+                              const Map& map, FitReport& report, Diagnostics& diagnostics,
+                              const Bindings* known) {
+  return Matcher(expanded, model, map, report, diagnostics, known).run();
 }
 
 }  // namespace rigc::templates

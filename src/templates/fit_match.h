@@ -20,7 +20,8 @@ struct Matching {
 
 /// Reports required joints without a bone, and bones that hang otherwise than their joints.
 std::optional<Matching> match(const Expanded& expanded, const tags::ForeignSkeleton& model,
-                              const Map& map, FitReport& report, Diagnostics& diagnostics);
+                              const Map& map, FitReport& report, Diagnostics& diagnostics,
+                              const Bindings* known = nullptr);
 
 /// What was measured, in the model's rig space unless a name says world.
 struct Measured {

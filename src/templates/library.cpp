@@ -40,6 +40,17 @@ std::vector<std::string> template_folders(const std::vector<std::string>& given)
   return folders;
 }
 
+std::optional<std::string> part_file(const std::string& reference, const std::string& folder,
+                                     const std::vector<std::string>& folders) {
+  std::vector<std::string> places = {folder.empty() ? "." : folder};
+  places.insert(places.end(), folders.begin(), folders.end());
+  for (const std::string& place : places) {
+    const auto path = confine(place, reference + ".yaml");
+    if (path && file_exists(*path)) return path;
+  }
+  return std::nullopt;
+}
+
 const Template* Library::open(const std::string& path_or_name, Diagnostics& diagnostics) {
   if (is_path(path_or_name) || file_exists(path_or_name))
     return read_once(path_or_name, path_or_name, {}, diagnostics);

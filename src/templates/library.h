@@ -19,6 +19,11 @@ namespace rigc::templates {
 /// list with colons), the data folder's `templates`.
 std::vector<std::string> template_folders(const std::vector<std::string>& given);
 
+/// The file of a part, by the same rule as Library::open_part: beside the template that names it,
+/// then in the template folders, never outside of them.
+std::optional<std::string> part_file(const std::string& reference, const std::string& folder,
+                                     const std::vector<std::string>& folders);
+
 /// One library serves one Diagnostics: the spans of what it read point into its sources.
 class Library {
  public:

@@ -128,6 +128,20 @@ TEST_CASE("base diagnostics: names and texts stay where they are while sources g
   CHECK(sources.text(5000) == "");
 }
 
+TEST_CASE("base diagnostics: a copy of the sources shares texts and goes its own way") {
+  Sources base;
+  const Span span{base.add("shared.yaml", "one\ntwo"), 2, 1, 3};
+  const std::string_view text = base.text(span.file);
+  Diagnostics first(base), second(base);
+  CHECK(first.sources().text(span.file).data() == text.data());
+  CHECK(first.sources().add("first.yaml", "f") == second.sources().add("second.yaml", "s"));
+  CHECK(first.sources().name(2) == "first.yaml");
+  CHECK(second.sources().name(2) == "second.yaml");
+  CHECK(base.name(2).empty());
+  first.report(kMistake, span, "wrong");
+  CHECK(render(first, false) == "shared.yaml:2:1: error[RIG0123]: wrong\n  two\n  ^~~\n");
+}
+
 TEST_CASE("base diagnostics: codes are unique and explained") {
   std::set<int> numbers;
   for (const Code* code : codes::base_codes) {

@@ -83,3 +83,26 @@ TEST_CASE("base paths: the folders of the program and of its data") {
     CHECK(folder_exists(found + "/templates"));
   if (before) ::setenv("RIGC_DATA", saved.c_str(), 1);
 }
+
+TEST_CASE("base paths: a folder that cannot be listed is an error where that is wanted") {
+  const test::TestFolder folder("listing");
+  folder.put("b", "");
+  folder.put("a", "");
+  Diagnostics diagnostics;
+  CHECK(list_folder(folder.path(), diagnostics) == std::vector<std::string>{"a", "b"});
+  CHECK(diagnostics.ok());
+  CHECK(!list_folder(folder / "none", diagnostics));
+  CHECK(!list_folder(folder / "a", diagnostics));
+  CHECK(diagnostics.errors() == 2);
+  CHECK(diagnostics.file_system_refused());
+}
+
+TEST_CASE("base paths: equal resolved paths name the same file") {
+  const test::TestFolder folder("resolved");
+  folder.put("a", "");
+  std::filesystem::create_symlink("a", folder / "link");
+  std::filesystem::create_symlink("loop", folder / "loop");
+  CHECK(resolved_path(folder / "link") == resolved_path(folder / "x/../a"));
+  CHECK(resolved_path(folder / "later") != resolved_path(folder / "a"));
+  CHECK(!resolved_path(folder / "loop"));
+}

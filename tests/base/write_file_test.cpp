@@ -198,3 +198,80 @@ TEST_CASE("base write: whoever is killed, the file is the old one or the new one
     CHECK(is_whole);
   }
 }
+
+namespace {
+
+/// The code that writing gives where exactly what was opened must still be there.
+int replace_code(const std::string& path, const Bytes& read) {
+  Diagnostics diagnostics;
+  WriteSettings settings;
+  settings.expected = read.version();
+  write_file(path, {"ours"}, diagnostics, settings);
+  return diagnostics.ok() ? 0 : diagnostics.all()[0].code->number;
+}
+
+Bytes opened(const std::string& path) {
+  Diagnostics diagnostics;
+  const auto bytes = Bytes::open(path, 1 << 20, diagnostics);
+  REQUIRE(bytes);
+  REQUIRE(bytes->version());
+  return *bytes;
+}
+
+}  // namespace
+
+TEST_CASE("base write: what another program made of a file since it was read is not replaced") {
+  const TestFolder folder("expected");
+  folder.put("a", "old");
+  CHECK(replace_code(folder / "a", opened(folder / "a")) == 0);
+  CHECK(folder.get("a") == "ours");
+  SUBCASE("changed") {
+    const Bytes read = opened(folder / "a");
+    folder.put("a", "longer than ours");
+    CHECK(replace_code(folder / "a", read) == codes::kFileReplaced.number);
+    CHECK(folder.get("a") == "longer than ours");
+  }
+  SUBCASE("replaced by one of the same size and time") {
+    const Bytes read = opened(folder / "a");
+    folder.put("b", "his!");
+    make_old(folder / "b");
+    make_old(folder / "a");
+    std::filesystem::rename(folder / "b", folder / "a");
+    CHECK(replace_code(folder / "a", read) == codes::kFileReplaced.number);
+    CHECK(folder.get("a") == "his!");
+  }
+  SUBCASE("vanished") {
+    const Bytes read = opened(folder / "a");
+    std::filesystem::remove(folder / "a");
+    CHECK(replace_code(folder / "a", read) == codes::kFileReplaced.number);
+    CHECK(!file_exists(folder / "a"));
+  }
+  SUBCASE("the link points elsewhere") {
+    folder.put("b", "ours");
+    std::filesystem::create_symlink("a", folder / "link");
+    const Bytes read = opened(folder / "link");
+    std::filesystem::remove(folder / "link");
+    std::filesystem::create_symlink("b", folder / "link");
+    CHECK(replace_code(folder / "link", read) == codes::kFileReplaced.number);
+    CHECK(folder.get("b") == "ours");
+  }
+  SUBCASE("only its mode") {
+    const Bytes read = opened(folder / "a");
+    REQUIRE(::chmod((folder / "a").c_str(), 0604) == 0);
+    CHECK(replace_code(folder / "a", read) == codes::kFileReplaced.number);
+    CHECK(mode_of(folder / "a") == 0604);
+  }
+  CHECK(folder.count() <= 3);
+}
+
+TEST_CASE("base write: a new file has the mode that is wanted, a replaced one keeps its own") {
+  const TestFolder folder("wanted_mode");
+  Diagnostics diagnostics;
+  WriteSettings settings;
+  settings.mode = 0600;
+  CHECK(write_file(folder / "a", {"new"}, diagnostics, settings));
+  CHECK(mode_of(folder / "a") == 0600);
+  settings.mode = 0640;
+  CHECK(write_file(folder / "a", {"newer"}, diagnostics, settings));
+  CHECK(mode_of(folder / "a") == 0600);
+}

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <regex>
@@ -73,7 +74,7 @@ Outcome run_rigc(const std::vector<std::string>& arguments, const Surroundings& 
 
 Outcome run_program(const std::string& binary, const std::vector<std::string>& arguments,
                     const Surroundings& surroundings) {
-  static int runs = 0;
+  static std::atomic<int> runs{0};
   const fs::path stem = fs::temp_directory_path() /
                         ("rigc_test_" + std::to_string(getpid()) + "_" + std::to_string(++runs));
   const std::string out = stem.string() + ".out";

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// What commands over many files share: options, progress, summary, report.
+// Test: tests/faults/interruption_test.cpp
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cli/command.h"
+#include "pipeline/batch.h"
+
+namespace rigc::cli {
+
+struct BatchOptions {
+  pipeline::BatchRequest request;
+  std::optional<double> jobs;
+};
+
+/// FILE... --jobs --report --resume --out-dir --backup -o.
+void declare_batch(Options& options, BatchOptions& batch);
+
+/// Does the work for all files: progress and their diagnostics go to stderr as they come, the
+/// summary (with --json the report) to stdout. `lists_all` prints every file's line, however many.
+void run_batch(BatchOptions& batch, const pipeline::Work& work, bool lists_all, Session& session);
+
+}  // namespace rigc::cli

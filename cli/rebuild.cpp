@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// rigc rebuild, unbuild, strip and prune: what a rig's own file is enough for. Test:
+// tests/cli/update_test.cpp
+#include <fmt/format.h>
+
+#include "cli/batch.h"
+#include "pipeline/rebuild.h"
+
+namespace rigc::cli {
+namespace {
+
+using pipeline::FileResult;
+using pipeline::FileWork;
+
+class Rebuild final : public Command {
+ public:
+  explicit Rebuild(bool unbuild) { request_.unbuild = unbuild; }
+
+  std::string name() const override { return request_.unbuild ? "unbuild" : "rebuild"; }
+  std::string summary() const override {
+    return request_.unbuild ? "Take rigs apart: skeleton and tags stay, keys wait as orphans"
+                            : "Build rigs again from their own tags, with other settings, keeping "
+                              "every key";
+  }
+  std::vector<std::string> examples() const override {
+    if (request_.unbuild) return {"rigc unbuild shot.glb", "rigc unbuild shot.glb -o bare.glb"};
+    return {"rigc rebuild shot.glb --feature ikfk:arms=off",
+            "rigc rebuild shots/ --group face=off --plan"};
+  }
+  void declare(Options& options) override {
+    declare_batch(options, batch_);
+    options.list("--rig", "GLOBAL", request_.rigs,
+                 "Only the rig with this global group (default: all)");
+    if (!request_.unbuild) {
+      options.list("--feature", "[GROUP/]NAME[:SWITCH]=on|off", request_.features,
+                   "Turn a feature on or off");
+      options.list("--group", "GROUP=on|off", request_.groups, "Turn a local group on or off");
+      options.flag("--strict", request_.strict, "Fail a file whose keys would not all find a node");
+      options.number("--tolerance", "MM", request_.tolerance_mm,
+                     "Fail a file where a joint moves by more than this");
+      options.flag("--keep-local", request_.keep_local,
+                   "Keep keys as they are where a control's zero has turned");
+    }
+    options.flag("--plan", request_.plan, "Say what would happen and write nothing");
+    options.flag("--verbose", verbose_, "List every control and property");
+    declare_modules(options, request_.paths);
+  }
+  void run(Session& session) override {
+    batch_.request.command = name();
+    batch_.request.settings = settings_text();
+    batch_.request.writes = !request_.plan;
+    run_batch(
+        batch_,
+        [&](const FileWork& work, Diagnostics& diagnostics) { return one(work, diagnostics); },
+        request_.plan || verbose_, session);
+  }
+
+ private:
+  std::string settings_text() const {
+    json::Writer w;
+    w.begin_object();
+    for (const auto& [key, list] :
+         {std::pair("rigs", &request_.rigs), std::pair("features", &request_.features),
+          std::pair("groups", &request_.groups)}) {
+      w.key(key).begin_array();
+      for (const std::string& text : *list) w.value(text);
+      w.end_array();
+    }
+    return w.member("plan", request_.plan).end_object().take();
+  }
+
+  FileResult one(const FileWork& work, Diagnostics& diagnostics) const {
+    FileResult result;
+    const auto rebuilt = pipeline::rebuild(request_, work, diagnostics);
+    if (!rebuilt) return result;
+    result.outcome = FileResult::Outcome::changed;
+    result.bytes = rebuilt->bytes;
+    json::Writer w;
+    w.begin_object().key("rigs").begin_array();
+    for (const pipeline::RigReport& report : rebuilt->rigs) {
+      result.summary += "\n" + as_text(report, verbose_);
+      write_json(w, report);
+    }
+    result.json = w.end_array().end_object().take();
+    return result;
+  }
+
+  pipeline::RebuildRequest request_;
+  BatchOptions batch_;
+  bool verbose_ = false;
+};
+
+/// strip and prune: something goes from the file.
+class Remove final : public Command {
+ public:
+  explicit Remove(bool strip) : strip_(strip) {}
+
+  std::string name() const override { return strip_ ? "strip" : "prune"; }
+  std::string summary() const override {
+    return strip_ ? "Take rigs and tags out of files: what remains is what was there before"
+                  : "Let go of orphans: keys and values whose control is gone";
+  }
+  std::vector<std::string> examples() const override {
+    return {strip_ ? "rigc strip shot.glb -o model.glb" : "rigc prune shot.glb"};
+  }
+  void declare(Options& options) override {
+    declare_batch(options, batch_);
+    options.list("--rig", "GLOBAL", rigs_, "Only the rig with this global group (default: all)");
+  }
+  void run(Session& session) override {
+    batch_.request.command = name();
+    json::Writer w;
+    w.begin_object().key("rigs").begin_array();
+    for (const std::string& rig : rigs_) w.value(rig);
+    batch_.request.settings = w.end_array().end_object().take();
+    run_batch(
+        batch_,
+        [&](const FileWork& work, Diagnostics& diagnostics) { return one(work, diagnostics); },
+        false, session);
+  }
+
+ private:
+  FileResult one(const FileWork& work, Diagnostics& diagnostics) const {
+    FileResult result;
+    const auto removed = strip_ ? pipeline::strip(rigs_, work, diagnostics)
+                                : pipeline::prune(rigs_, work, diagnostics);
+    if (!removed) return result;
+    const bool changed = strip_ || removed->orphans > 0;
+    result.outcome = changed ? FileResult::Outcome::changed : FileResult::Outcome::unchanged;
+    result.bytes = removed->bytes;
+    result.summary = strip_ ? fmt::format("{} rig{} taken out, with {} channels on controls",
+                                          removed->rigs.size(),
+                                          removed->rigs.size() == 1 ? "" : "s", removed->channels)
+                            : fmt::format("{} orphan{} gone, with {} channels", removed->orphans,
+                                          removed->orphans == 1 ? "" : "s", removed->channels);
+    json::Writer w;
+    w.begin_object().key("rigs").begin_array();
+    for (const std::string& rig : removed->rigs) w.value(rig);
+    w.end_array().member("channels", removed->channels).member("orphans", removed->orphans);
+    result.json = w.end_object().take();
+    return result;
+  }
+
+  bool strip_;
+  std::vector<std::string> rigs_;
+  BatchOptions batch_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_rebuild() { return std::make_unique<Rebuild>(false); }
+std::unique_ptr<Command> make_unbuild() { return std::make_unique<Rebuild>(true); }
+std::unique_ptr<Command> make_strip() { return std::make_unique<Remove>(true); }
+std::unique_ptr<Command> make_prune() { return std::make_unique<Remove>(false); }
+
+}  // namespace rigc::cli

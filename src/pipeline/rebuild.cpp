@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// Rebuild, unbuild, strip and prune. Test: tests/pipeline/rebuild_test.cpp
+#include "pipeline/rebuild.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/files.h"
+#include "base/text.h"
+#include "pipeline/codes.h"
+#include "pipeline/update_codes.h"
+#include "tags/settings.h"
+
+namespace rigc::pipeline {
+namespace {
+
+/// Indices of the rigs that somebody named, all where nobody did; a name that no rig has is
+/// reported.
+std::optional<std::vector<std::size_t>> choose(const std::vector<gltf::Rig>& rigs,
+                                               const std::vector<std::string>& wanted,
+                                               const std::string& path, Diagnostics& diagnostics) {
+  std::vector<std::size_t> out;
+  std::vector<std::string> names;
+  for (const gltf::Rig& rig : rigs) names.push_back(rig.skeleton.global);
+  for (const std::string& name : wanted) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    diagnostics.report(codes::kNoSuchRig, Place(path),
+                       fmt::format("the file has no rig \"{}\"", printable(name, 60)),
+                       "its rigs: " + printable(join(names, ", "), 200));
+    return std::nullopt;
+  }
+  for (std::size_t i = 0; i < rigs.size(); ++i) {
+    const bool named = std::find(wanted.begin(), wanted.end(), names[i]) != wanted.end();
+    if (wanted.empty() || named) out.push_back(i);
+  }
+  return out;
+}
+
+/// What the file was built with, and over it what the request says.
+bool add_settings(const RebuildRequest& request, tags::Settings& settings,
+                  Diagnostics& diagnostics) {
+  bool good = true;
+  for (const std::string& text : request.features) {
+    const auto feature = tags::parse_feature_setting(text, diagnostics);
+    good = good && feature;
+    if (!feature) continue;
+    std::erase_if(settings.features, [&](const tags::Settings::Feature& other) {
+      return other.group == feature->group && other.name == feature->name &&
+             other.switch_name == feature->switch_name;
+    });
+    settings.features.push_back(*feature);
+  }
+  for (const std::string& text : request.groups) {
+    const auto group = tags::parse_group_setting(text, diagnostics);
+    good = good && group;
+    if (!group) continue;
+    std::erase_if(settings.groups, [&](const auto& other) { return other.first == group->first; });
+    settings.groups.push_back(*group);
+  }
+  return good;
+}
+
+/// A file that is changed in place is locked before it is read.
+bool lock_file(const FileWork& work, bool writes, std::optional<FileLock>& lock,
+               Diagnostics& diagnostics) {
+  if (!writes || work.input != work.output) return true;
+  lock = FileLock::take(work.input, diagnostics);
+  return lock.has_value();
+}
+
+/// Reads a file with at least one rig.
+struct Opened {
+  gltf::File file;
+  std::vector<gltf::Rig> rigs;
+};
+std::optional<Opened> open_rigs(const std::string& path, Diagnostics& diagnostics) {
+  auto file = gltf::open(path, diagnostics);
+  if (!file) return std::nullopt;
+  auto rigs = gltf::read_rigs(*file, diagnostics);
+  if (!rigs) return std::nullopt;
+  if (rigs->empty()) {
+    diagnostics.report(codes::kNoRigHere, Place(path), "the file has no rig");
+    return std::nullopt;
+  }
+  return Opened{*std::move(file), *std::move(rigs)};
+}
+
+bool is_fitted(const gltf::Rig& rig) {
+  const auto& joints = rig.skeleton.joints;
+  return std::any_of(joints.begin(), joints.end(),
+                     [](const tags::TaggedJoint& joint) { return joint.foreign_node >= 0; });
+}
+
+}  // namespace
+
+std::optional<Rebuilt> rebuild(const RebuildRequest& request, const FileWork& work,
+                               Diagnostics& diagnostics) {
+  std::optional<FileLock> lock;
+  if (!lock_file(work, !request.plan, lock, diagnostics)) return std::nullopt;
+  catalog::Catalogue catalogue;
+  if (!add_modules(request.paths, catalogue, diagnostics)) return std::nullopt;
+  const auto file = Recompilation::open(work.input, diagnostics);
+  if (!file) return std::nullopt;
+  const auto chosen = choose(file->rigs(), request.rigs, work.input, diagnostics);
+  if (!chosen) return std::nullopt;
+  Rebuilt out;
+  for (const std::size_t index : *chosen) {
+    const gltf::Rig& old = file->rigs()[index];
+    NewRig next;
+    next.skeleton = old.skeleton;
+    next.settings = old.settings;
+    next.skeleton_only = request.unbuild;
+    if (!add_settings(request, next.settings, diagnostics)) return std::nullopt;
+    RigReport& report = out.rigs.emplace_back();
+    if (!old.skeleton.templates.empty()) {
+      const tags::TemplateReference& main = old.skeleton.templates.front();
+      report.template_name = report.template_before = main.name;
+      report.version = report.version_before = main.version;
+    }
+    report.why = request.unbuild ? "taken apart" : "built again";
+    if (!file->compile(index, std::move(next), catalogue, request, report, diagnostics))
+      return std::nullopt;
+  }
+  if (!request.plan && !file->write(work, out.bytes, diagnostics)) return std::nullopt;
+  return out;
+}
+
+std::optional<Removed> strip(const std::vector<std::string>& rigs, const FileWork& work,
+                             Diagnostics& diagnostics) {
+  std::optional<FileLock> lock;
+  if (!lock_file(work, true, lock, diagnostics)) return std::nullopt;
+  const auto opened = open_rigs(work.input, diagnostics);
+  if (!opened) return std::nullopt;
+  const auto chosen = choose(opened->rigs, rigs, work.input, diagnostics);
+  if (!chosen) return std::nullopt;
+  Removed out;
+  std::vector<gltf::Rig> models, characters;
+  for (const std::size_t index : *chosen) {
+    const gltf::Rig& rig = opened->rigs[index];
+    out.rigs.push_back(rig.skeleton.global);
+    out.orphans += rig.orphans.size();
+    (is_fitted(rig) ? models : characters).push_back(rig);
+  }
+  gltf::Patch patch(opened->file);
+  std::set<int> gone;
+  for (const auto& [group, remains] :
+       {std::pair(&models, gltf::Strip::nothing), std::pair(&characters, gltf::Strip::character)})
+    if (!group->empty()) gone.merge(gltf::strip_rigs(patch, opened->file, *group, remains));
+  out.channels = gltf::drop_channels(patch, opened->file, gone);
+  if (!write_output(patch, opened->file, work.output, out.bytes, diagnostics)) return std::nullopt;
+  return out;
+}
+
+std::optional<Removed> prune(const std::vector<std::string>& rigs, const FileWork& work,
+                             Diagnostics& diagnostics) {
+  std::optional<FileLock> lock;
+  if (!lock_file(work, true, lock, diagnostics)) return std::nullopt;
+  const auto opened = open_rigs(work.input, diagnostics);
+  if (!opened) return std::nullopt;
+  const auto chosen = choose(opened->rigs, rigs, work.input, diagnostics);
+  if (!chosen) return std::nullopt;
+  Removed out;
+  std::vector<gltf::Rig> pruned;
+  std::vector<gltf::Replacement> replacements;
+  std::set<int> gone;
+  pruned.reserve(chosen->size());
+  for (const std::size_t index : *chosen) {
+    const gltf::Rig& rig = opened->rigs[index];
+    out.rigs.push_back(rig.skeleton.global);
+    out.orphans += rig.orphans.size();
+    if (rig.orphans.empty()) continue;
+    for (const gltf::Orphan& orphan : rig.orphans) gone.insert(orphan.node);
+    gltf::Rig& next = pruned.emplace_back(rig);
+    next.orphans.clear();
+    replacements.push_back({&rig, &next, gltf::own_nodes(rig), diagnostics.sources()});
+  }
+  if (replacements.empty()) return out;
+  gltf::Patch patch(opened->file);
+  if (!gltf::replace_rigs(patch, opened->file, replacements, diagnostics)) return std::nullopt;
+  out.channels = gltf::drop_channels(patch, opened->file, gone);
+  if (!write_output(patch, opened->file, work.output, out.bytes, diagnostics)) return std::nullopt;
+  return out;
+}
+
+}  // namespace rigc::pipeline

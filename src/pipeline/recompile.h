@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// A file whose rigs are compiled again: what update, rebuild and unbuild share. Test:
+// tests/pipeline/update_test.cpp
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/batch.h"
+#include "pipeline/build.h"
+#include "pipeline/carry.h"
+
+namespace rigc::pipeline {
+
+/// What is asked of a recompilation whatever made it.
+struct CarryOptions {
+  bool plan = false;    ///< find out and write nothing
+  bool strict = false;  ///< keys and values that would lose their node are an error
+  bool keep_local = false;
+  std::optional<double> tolerance_mm;  ///< a joint that moves by more is an error
+};
+
+/// What one rig becomes.
+struct NewRig {
+  tags::TaggedSkeleton skeleton;  ///< tags as declared, placed
+  tags::Settings settings;
+  bool skeleton_only = false;                                           ///< no command runs
+  std::map<std::string, std::vector<update::AttributeChange>> changes;  ///< by module
+};
+
+struct RigReport {
+  std::string global;
+  std::string template_name, template_before;
+  int version = 0, version_before = 0;
+  std::string why;  ///< `new version`, `changed content`, ...
+  CarryReport carry;
+  std::vector<ClipComparison> clips;
+  std::vector<std::string> dropped_settings;  ///< that the new template does not have
+  std::vector<std::string> skinned_joints;    ///< gone from the template, but a skin uses them
+};
+
+/// Largest differences of a rig over all clips.
+struct Largest {
+  double mm = 0, degrees = 0;
+  std::string joint, clip;
+};
+Largest largest_difference(const RigReport& report);
+
+class Recompilation {
+ public:
+  /// Reads a file with its rigs and clips. A file without rigs is reported.
+  static std::unique_ptr<Recompilation> open(const std::string& path, Diagnostics& diagnostics);
+
+  const gltf::File& file() const { return *file_; }
+  const std::vector<gltf::Rig>& rigs() const { return rigs_; }
+
+  /// Builds a rig anew and carries over what was on it. Reported: what does not build, what is
+  /// lost with `strict`, what moves beyond the tolerance.
+  bool compile(std::size_t rig, NewRig next, const catalog::Catalogue& catalogue,
+               const CarryOptions& options, RigReport& report, Diagnostics& diagnostics);
+
+  /// Writes the file with all rigs that were compiled.
+  bool write(const FileWork& work, std::uint64_t& bytes, Diagnostics& diagnostics);
+
+ private:
+  struct Compiled {
+    std::size_t rig = 0;
+    gltf::Rig fresh;
+    Sources sources;  ///< that its spans point into
+    std::unique_ptr<Carrier> carrier;
+  };
+  std::optional<gltf::File> file_;
+  std::vector<gltf::Rig> rigs_;
+  std::vector<anim::Clip> clips_;
+  std::set<int> animated_;
+  std::vector<std::unique_ptr<Compiled>> compiled_;
+};
+
+/// For people, several lines; `verbose` lists every control and property.
+std::string as_text(const RigReport& report, bool verbose);
+/// An object.
+void write_json(json::Writer& writer, const RigReport& report);
+
+}  // namespace rigc::pipeline

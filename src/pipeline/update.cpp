@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+// Updates files. Test: tests/pipeline/update_test.cpp
+#include "pipeline/update.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/files.h"
+#include "base/text.h"
+#include "gltf/skeletons.h"
+#include "pipeline/update_codes.h"
+#include "tags/settings.h"
+#include "templates/expand.h"
+#include "update/skeleton.h"
+
+namespace rigc::pipeline {
+namespace {
+
+using tags::TaggedSkeleton;
+
+bool same_templates(const std::vector<tags::TemplateReference>& a,
+                    const std::vector<tags::TemplateReference>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const tags::TemplateReference& x, const tags::TemplateReference& y) {
+                      return x.name == y.name && x.version == y.version && x.digest == y.digest;
+                    });
+}
+
+templates::Bindings bindings_of(const TaggedSkeleton& skeleton) {
+  templates::Bindings out;
+  for (const tags::TaggedJoint& joint : skeleton.joints) {
+    if (joint.foreign_node >= 0)
+      out.nodes.emplace(joint.key, joint.foreign_node);
+    else
+      out.made.insert(joint.key);
+  }
+  return out;
+}
+
+bool is_fitted(const TaggedSkeleton& skeleton) {
+  return std::any_of(skeleton.joints.begin(), skeleton.joints.end(),
+                     [](const tags::TaggedJoint& joint) { return joint.foreign_node >= 0; });
+}
+
+/// The skeleton of a file that has the rig's bones.
+const tags::ForeignSkeleton* skeleton_of(const std::vector<tags::ForeignSkeleton>& skeletons,
+                                         const TaggedSkeleton& rig) {
+  std::set<int> nodes;
+  for (const tags::TaggedJoint& joint : rig.joints)
+    if (joint.foreign_node >= 0) nodes.insert(joint.foreign_node);
+  const tags::ForeignSkeleton* best = nullptr;
+  std::size_t most = 0;
+  for (const tags::ForeignSkeleton& skeleton : skeletons) {
+    std::size_t shared = 0;
+    for (const tags::ForeignJoint& joint : skeleton.joints) shared += nodes.count(joint.node);
+    if (shared <= most) continue;
+    most = shared;
+    best = &skeleton;
+  }
+  return best;
+}
+
+bool has_new_joints(const templates::Expanded& expanded, const templates::Bindings& known) {
+  return std::any_of(
+      expanded.joints.begin(), expanded.joints.end(), [&](const templates::ExpandedJoint& joint) {
+        const auto is_known = [&](const JointKey& key) {
+          return known.nodes.count(key) != 0 || known.made.count(key) != 0;
+        };
+        const auto& was = joint.tagged.was;
+        return !is_known(joint.tagged.key) && std::none_of(was.begin(), was.end(), is_known);
+      });
+}
+
+/// Settings without those that a skeleton does not have.
+tags::Settings known_settings(const tags::Settings& settings, const TaggedSkeleton& skeleton,
+                              std::vector<std::string>& dropped) {
+  tags::Settings out;
+  out.rest = settings.rest;
+  const auto takes = [&](tags::Settings one) {
+    TaggedSkeleton copy;  // names only
+    copy.features = skeleton.features;
+    for (const tags::TaggedJoint& joint : skeleton.joints) {
+      tags::TaggedJoint& slim = copy.joints.emplace_back();
+      slim.ids = joint.ids;
+      slim.features = joint.features;
+    }
+    Diagnostics unheard;
+    return tags::apply(copy, one, unheard);
+  };
+  if (takes(settings)) return settings;
+  for (const tags::Settings::Feature& feature : settings.features) {
+    tags::Settings one;
+    one.features.push_back(feature);
+    if (takes(one))
+      out.features.push_back(feature);
+    else
+      dropped.push_back((feature.group.empty() ? "" : feature.group + "/") + feature.name +
+                        (feature.switch_name.empty() ? "" : ":" + feature.switch_name));
+  }
+  for (const auto& group : settings.groups) {
+    tags::Settings one;
+    one.groups.push_back(group);
+    if (takes(one))
+      out.groups.push_back(group);
+    else
+      dropped.push_back(group.first);
+  }
+  return out;
+}
+
+std::string quoted(const std::string& text) { return "\"" + printable(text, 60) + "\""; }
+
+}  // namespace
+
+std::optional<TaggedSkeleton> place_again(const templates::Expanded& expanded,
+                                          const gltf::File& file, const gltf::Rig& old,
+                                          const std::vector<templates::Map>& maps,
+                                          bool take_skeleton, Diagnostics& diagnostics) {
+  std::optional<TaggedSkeleton> fresh;
+  if (!is_fitted(old.skeleton)) {
+    fresh = templates::place(expanded, diagnostics);
+  } else {
+    const auto skeletons = gltf::read_skeletons(file, old.settings.rest, diagnostics);
+    if (!skeletons) return std::nullopt;
+    const tags::ForeignSkeleton* skeleton = skeleton_of(*skeletons, old.skeleton);
+    if (!skeleton) {
+      diagnostics.report(codes::kModelGone, Place(file.path),
+                         fmt::format("no skeleton of the file has the joints of rig {}",
+                                     quoted(old.skeleton.global)));
+      return std::nullopt;
+    }
+    const templates::Bindings known = bindings_of(old.skeleton);
+    templates::Map map;
+    if (has_new_joints(expanded, known)) {
+      const auto trials = templates::try_maps(maps, expanded, *skeleton);
+      if (!trials.empty()) map = *trials.front().map;
+    }
+    // What there is to warn of in the fit was said when the rig was built.
+    Diagnostics fitting(diagnostics.sources());
+    templates::FitReport report;
+    fresh = templates::fit(expanded, *skeleton, map, report, fitting, &known);
+    if (!fresh) diagnostics.append(fitting);
+  }
+  if (fresh && !take_skeleton) update::keep_placements(*fresh, old.skeleton);
+  return fresh;
+}
+
+std::unique_ptr<Updater> Updater::make(const UpdateSettings& settings, Diagnostics& diagnostics) {
+  std::unique_ptr<Updater> out(new Updater(settings));
+  if (!add_modules(settings.paths, out->catalogue_, diagnostics)) return nullptr;
+  out->folders_ = templates::template_folders(settings.paths.templates);
+  out->versions_.emplace(out->folders_);
+  if (!settings.to.empty()) {
+    const auto path = out->versions_->resolve(settings.to, diagnostics);
+    if (!path) return nullptr;
+    out->to_ = *path;
+    const Loaded* loaded = out->load(*path);
+    if (!loaded->expanded) {
+      diagnostics.append(loaded->diagnostics);
+      return nullptr;
+    }
+  }
+  return out;
+}
+
+const Updater::Loaded* Updater::load(const std::string& path) const {
+  const std::lock_guard lock(mutex_);
+  std::unique_ptr<Loaded>& loaded = loaded_[path];
+  if (loaded) return loaded.get();
+  loaded = std::make_unique<Loaded>();
+  templates::Library library(folders_, catalogue_);
+  if (const templates::Template* main = library.open(path, loaded->diagnostics))
+    loaded->expanded = templates::expand(*main, library, catalogue_, loaded->diagnostics);
+  return loaded.get();
+}
+
+const std::vector<templates::Map>& Updater::maps() const {
+  const std::lock_guard lock(mutex_);
+  if (!maps_) {
+    Diagnostics unheard;
+    maps_ = templates::all_maps(folders_, unheard);
+  }
+  return *maps_;
+}
+
+bool Updater::concerns(const std::string& global) const {
+  return settings_.rigs.empty() ||
+         std::find(settings_.rigs.begin(), settings_.rigs.end(), global) != settings_.rigs.end();
+}
+
+/// What is to be done with a rig; false where its template cannot be had.
+bool Updater::find_step(const std::string& path, const std::string& global,
+                        const std::vector<tags::TemplateReference>& templates,
+                        const std::vector<std::pair<std::string, int>>& modules, Step& step,
+                        Diagnostics& diagnostics) const {
+  if (!concerns(global) || templates.empty()) return true;
+  const tags::TemplateReference& main = templates.front();
+  std::string file = to_;
+  if (file.empty()) {
+    const templates::TemplateVersion* newest = versions_->newest(main.name);
+    if (!newest) {
+      diagnostics.report(codes::kTemplateLost, Place(path),
+                         fmt::format("rig {} was made by template {} version {}, which is in none "
+                                     "of the template folders",
+                                     quoted(global), quoted(main.name), main.version),
+                         "--templates DIR adds a folder; --to TEMPLATE names the one to follow");
+      return false;
+    }
+    if (newest->version < main.version) {
+      diagnostics.report(
+          codes::kOlderOnly, Place(path),
+          fmt::format("rig {} was made by version {} of template {}; the newest found is {}",
+                      quoted(global), main.version, quoted(main.name), newest->version),
+          fmt::format("--to {}@{} goes back", printable(main.name), newest->version));
+      return true;
+    }
+    file = newest->path;
+  }
+  const Loaded* loaded = load(file);
+  if (!loaded->expanded) {
+    diagnostics.append(loaded->diagnostics);
+    return false;
+  }
+  const TaggedSkeleton& next = loaded->expanded->skeleton;
+  const tags::TemplateReference& now = next.templates.front();
+  if (now.name != main.name)
+    step.why = "another template";
+  else if (now.version != main.version)
+    step.why = "another version";
+  else if (!same_templates(next.templates, templates))
+    step.why = "changed content";
+  for (const auto& [name, version] : modules) {
+    const catalog::Descriptor* descriptor = catalogue_.find(name);
+    if (step.why.empty() && (!descriptor || descriptor->version != version))
+      step.why = "changed modules";
+  }
+  if (!step.why.empty() || settings_.take_skeleton) step.loaded = loaded;
+  return true;
+}
+
+std::optional<NewRig> Updater::next_rig(const Recompilation& file, const gltf::Rig& old,
+                                        const Loaded& loaded, RigReport& report,
+                                        Diagnostics& diagnostics) const {
+  auto skeleton = place_again(*loaded.expanded, file.file(), old,
+                              is_fitted(old.skeleton) ? maps() : std::vector<templates::Map>(),
+                              settings_.take_skeleton, diagnostics);
+  if (!skeleton) return std::nullopt;
+  tags::set_global(*skeleton, old.skeleton.global);
+  NewRig next;
+  next.settings = known_settings(old.settings, *skeleton, report.dropped_settings);
+  for (const std::string& setting : report.dropped_settings)
+    diagnostics.report(codes::kSettingGone, Place(file.file().path),
+                       fmt::format("the new version has no {}, which rig {} was built with a "
+                                   "setting for",
+                                   quoted(setting), quoted(old.skeleton.global)));
+  next.skeleton = *std::move(skeleton);
+  next.skeleton_only = old.commands.empty();  // it was taken apart, and stays so
+  return next;
+}
+
+FileResult Updater::update(const FileWork& work, Diagnostics& diagnostics) const {
+  FileResult result;
+  std::optional<FileLock> lock;
+  if (!settings_.plan && work.input == work.output) {
+    lock = FileLock::take(work.input, diagnostics);
+    if (!lock) return result;
+  }
+  const auto summaries = gltf::read_rig_summaries(work.input, diagnostics);
+  if (!summaries) return result;
+  bool concerned = false, good = true;
+  for (const gltf::RigSummary& rig : *summaries) {
+    Step step;
+    good = find_step(work.input, rig.global, rig.templates, rig.modules, step, diagnostics) && good;
+    concerned = concerned || step.loaded;
+  }
+  if (!good) return result;
+  if (!concerned) {
+    result.summary = summaries->empty() ? "has no rig" : "is up to date";
+    return result;
+  }
+  Diagnostics reading;
+  const auto file = Recompilation::open(work.input, reading);
+  diagnostics.append(reading);
+  if (!file) return result;
+
+  std::vector<RigReport> reports;
+  for (std::size_t i = 0; i < file->rigs().size(); ++i) {
+    const gltf::Rig& old = file->rigs()[i];
+    Step step;
+    const auto& made_by = old.skeleton.templates;
+    if (!find_step(work.input, old.skeleton.global, made_by, old.modules, step, reading))
+      return result;
+    if (!step.loaded) continue;
+    RigReport& report = reports.emplace_back();
+    const tags::TemplateReference& now = step.loaded->expanded->skeleton.templates.front();
+    report.why = step.why;
+    report.template_before = made_by.front().name;
+    report.version_before = made_by.front().version;
+    report.template_name = now.name;
+    report.version = now.version;
+    // What is written names lines of the template: they are in its sources.
+    Diagnostics building(step.loaded->diagnostics.sources());
+    auto next = next_rig(*file, old, *step.loaded, report, building);
+    const bool built =
+        next && file->compile(i, *std::move(next), catalogue_, settings_, report, building);
+    diagnostics.append(building);
+    if (!built) return result;
+  }
+  result.outcome = FileResult::Outcome::changed;
+  json::Writer writer;
+  writer.begin_object().key("rigs").begin_array();
+  for (const RigReport& report : reports) {
+    result.summary += (result.summary.empty() ? "" : "\n") + as_text(report, settings_.verbose);
+    write_json(writer, report);
+  }
+  result.json = writer.end_array().end_object().take();
+  if (settings_.plan) return result;
+  file->write(work, result.bytes, diagnostics);
+  return result;
+}
+
+}  // namespace rigc::pipeline

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Update: moves the rigs of files to other versions of their templates and keeps every key. Test:
+// tests/pipeline/update_test.cpp
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gltf/rig_summary.h"
+#include "pipeline/batch.h"
+#include "pipeline/environment.h"
+#include "pipeline/recompile.h"
+#include "templates/library.h"
+#include "templates/map.h"
+#include "templates/versions.h"
+
+namespace rigc::pipeline {
+
+struct UpdateSettings : CarryOptions {
+  std::string to;  ///< template to follow: file, NAME, NAME@VERSION; empty: the newest
+  std::vector<std::string> rigs;  ///< global groups to update; empty: all
+  bool take_skeleton = false;     ///< joints go where the new template has them
+  bool verbose = false;           ///< summaries list every control and property
+  Paths paths;
+};
+
+/// Reads templates once and updates any number of files with them, from several threads.
+class Updater {
+ public:
+  /// Null where modules or the template of `to` have errors.
+  static std::unique_ptr<Updater> make(const UpdateSettings& settings, Diagnostics& diagnostics);
+
+  /// Updates one file: thread-safe.
+  FileResult update(const FileWork& work, Diagnostics& diagnostics) const;
+
+ private:
+  /// A template as rigs of every file share it; spans point into its own sources.
+  struct Loaded {
+    Diagnostics diagnostics;
+    std::optional<templates::Expanded> expanded;
+  };
+  /// What is to be done with a rig.
+  struct Step {
+    const Loaded* loaded = nullptr;  ///< null: nothing
+    std::string why;
+  };
+
+  explicit Updater(UpdateSettings settings) : settings_(std::move(settings)) {}
+  const Loaded* load(const std::string& path) const;
+  bool find_step(const std::string& path, const std::string& global,
+                 const std::vector<tags::TemplateReference>& templates,
+                 const std::vector<std::pair<std::string, int>>& modules, Step& step,
+                 Diagnostics& diagnostics) const;
+  bool concerns(const std::string& global) const;
+  const std::vector<templates::Map>& maps() const;
+  std::optional<NewRig> next_rig(const Recompilation& file, const gltf::Rig& old,
+                                 const Loaded& loaded, RigReport& report,
+                                 Diagnostics& diagnostics) const;
+
+  UpdateSettings settings_;
+  catalog::Catalogue catalogue_;
+  std::vector<std::string> folders_;
+  std::optional<templates::Versions> versions_;
+  std::string to_;  ///< path
+  mutable std::mutex mutex_;
+  mutable std::map<std::string, std::unique_ptr<Loaded>> loaded_;  ///< by path
+  mutable std::optional<std::vector<templates::Map>> maps_;
+};
+
+/// Joints of a fresh skeleton on a character that has been rigged: placed as the old rig's, or
+/// fitted to the same bones of its model. `maps`: for joints that are new.
+std::optional<tags::TaggedSkeleton> place_again(const templates::Expanded& expanded,
+                                                const gltf::File& file, const gltf::Rig& old,
+                                                const std::vector<templates::Map>& maps,
+                                                bool take_skeleton, Diagnostics& diagnostics);
+
+}  // namespace rigc::pipeline

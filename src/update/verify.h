@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Compares how two rigs play. Test: tests/update/verify_test.cpp
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "anim/clip.h"
+#include "base/diagnostics.h"
+#include "scene/scene.h"
+
+namespace rigc::update {
+
+/// A rig with a clip as it plays on it.
+struct Player {
+  const scene::Scene* scene = nullptr;      ///< with what animators set
+  const std::vector<int>* nodes = nullptr;  ///< glTF node of each scene node
+  const anim::Clip* clip = nullptr;
+};
+
+/// A joint of both rigs.
+struct JointPair {
+  std::string name;
+  scene::NodeId old, fresh;
+};
+
+struct Difference {
+  std::string joint;
+  double largest_mm = 0, mean_mm = 0;
+  double largest_degrees = 0, mean_degrees = 0;
+};
+
+struct Comparison {
+  std::size_t times = 0;      ///< that were compared
+  std::size_t all_times = 0;  ///< keys, and midway between them
+  std::vector<Difference> joints;
+};
+
+/// Most times of a clip that are compared.
+inline constexpr std::size_t kMostTimes = 2000;
+
+/// Evaluates both at the keys of the clips and midway, evenly thinned to kMostTimes; a clip without
+/// keys is compared once. `unit`: length in rig space of a metre. A rig that cannot be evaluated is
+/// reported.
+std::optional<Comparison> compare(const Player& old, const Player& fresh,
+                                  const std::vector<JointPair>& joints, double unit,
+                                  Diagnostics& diagnostics);
+
+}  // namespace rigc::update
