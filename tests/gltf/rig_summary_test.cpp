@@ -119,6 +119,46 @@ TEST_CASE("gltf rig_summary: a text that ends anywhere is read as a whole or rep
   }
 }
 
+TEST_CASE(
+    "gltf rig_summary: of any text that is JSON, what is left out changes nothing that is left") {
+  const auto parse = [](std::string text) {
+    Diagnostics quiet;
+    return json::parse(std::move(text), "", 0, quiet);
+  };
+  const auto told = [](const json::Document& document) {
+    std::string out;
+    const json::Value extension = document.root()["extensions"]["RIGC_rig"];
+    out += extension["version"] ? extension["version"].text() : "-";
+    for (const json::Value& rig : extension["rigs"].items())
+      for (const char* key :
+           {"id", "name", "global", "templates", "modules", "settings", "orphans"})
+        out += rig[key] ? rig[key].text() : "-";
+    return out;
+  };
+  constexpr std::string_view kBytes = "{}[]\",:\\ 0a";
+  const std::string original = kTwoRigs;
+  std::size_t compared = 0;
+  for (std::size_t at = 0; at < original.size(); ++at) {
+    for (const char byte : kBytes) {
+      std::string text = original;
+      text[at] = byte;
+      const auto whole = parse(text);
+      if (!whole) continue;
+      CAPTURE(text);
+      const auto rest = without_details(text);
+      if (!rest) {
+        CHECK(text.find('\\') != std::string::npos);
+        continue;
+      }
+      const auto document = parse(*rest);
+      REQUIRE(document);
+      CHECK(told(*document) == told(*whole));
+      ++compared;
+    }
+  }
+  CHECK(compared > 1000);
+}
+
 TEST_CASE("gltf rig_summary: what is wrong is reported at its place in the file") {
   const auto wrong = [](std::string_view from, std::string_view to) {
     Diagnostics diagnostics;
