@@ -8,6 +8,7 @@
 namespace rigc::bench {
 
 void add_process_benchmarks();
+void add_status_benchmarks();
 void add_large_benchmarks();
 void add_json_benchmarks();
 void add_stage_benchmarks();

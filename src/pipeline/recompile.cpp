@@ -133,7 +133,9 @@ bool Recompilation::compile(std::size_t index, NewRig next, const catalog::Catal
   compiled->fresh = *std::move(fresh);
   update::Options remap;
   remap.keep_local = options.keep_local;
-  remap.changes = std::move(next.changes);
+  for (const auto& [module, version] : old.modules)
+    if (const catalog::Descriptor* descriptor = catalogue.find(module))
+      remap.changes[module] = catalog::attribute_changes(*descriptor, version);
   compiled->carrier = std::make_unique<Carrier>(old, compiled->fresh, clips_, animated_, catalogue,
                                                 std::move(remap));
   compiled->carrier->run();
@@ -152,6 +154,7 @@ bool Recompilation::compile(std::size_t index, NewRig next, const catalog::Catal
 }
 
 bool Recompilation::write(const FileWork& work, std::uint64_t& bytes, Diagnostics& diagnostics) {
+  if (!keep_original(work, file_->whole, diagnostics)) return false;
   gltf::Patch patch(*file_);
   std::vector<gltf::Replacement> replacements;
   for (const auto& compiled : compiled_)

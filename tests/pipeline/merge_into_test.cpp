@@ -157,8 +157,7 @@ Outcome join(const std::vector<std::string>& files, const std::string& name,
   pipeline::merge_files({files, false, into, attach, {}}, outcome.path, diagnostics);
   outcome.codes = test::codes(diagnostics);
   std::string models;
-  for (const std::string& file : files)
-    models += file + "\n";
+  for (const std::string& file : files) models += file + "\n";
   test::made_from(outcome.path, models);
   return outcome;
 }
@@ -337,6 +336,23 @@ TEST_CASE("merge into: keys on what hangs elsewhere now are reported") {
       test::with_clip(stick, {test::keys(root, anim::Path::translation, 3, {0, 0, 0, 1, 0, 0})});
   const std::string hero = build(biped(), "hero", "hero");
   CHECK(join({hero, moved}, "moved", "hero", {"stick=spine.chest"}).codes == "RIG0697");
+}
+
+TEST_CASE("merge into: what stands above a joint in the file cannot hang under it") {
+  const std::string hero = build(biped(), "hero", "hero");
+  const std::string stick = build(write("stick.yaml", kStick), "stick_above");
+  Diagnostics diagnostics;
+  const std::string apart = folder() + "/above.glb";
+  REQUIRE(pipeline::merge_files({{hero, stick}, false, {}, {}, {}}, apart, diagnostics));
+  test::Character character = test::load_glb(apart);
+  auto& json = character.json;
+  const int root = rigs_of(hero)[0].nodes[0];
+  const std::size_t above = opened(hero).root()["nodes"].size();  // first joint of the stick
+  json["nodes"][above]["children"].push_back(root);
+  auto& roots = json["scenes"][0]["nodes"];
+  roots.erase(std::find(roots.begin(), roots.end(), root));
+  test::save_glb(character, apart);
+  CHECK(join({apart}, "refused", "hero", {"stick=spine.chest"}).codes == "RIG0696");
 }
 
 TEST_CASE("merge into: two rigs join a third in one go") {
