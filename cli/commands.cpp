@@ -15,9 +15,14 @@ std::vector<std::unique_ptr<Command>> commands() {
   table.push_back(make_map());
   table.push_back(make_check());
   table.push_back(make_plan());
+  table.push_back(make_status());
   table.push_back(make_inspect());
   table.push_back(make_query());
   table.push_back(make_bake());
+  table.push_back(make_merge());
+  table.push_back(make_rename());
+  table.push_back(make_extract());
+  table.push_back(make_adopt());
   table.push_back(make_modules());
   table.push_back(make_schema());
   table.push_back(make_completions());

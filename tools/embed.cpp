@@ -82,14 +82,22 @@ class Tables {
   std::string out_;
 };
 
+std::string bound(const std::optional<double>& number) {
+  return number ? double_text(*number) : std::string("std::nullopt");
+}
+
+std::string change_row(const Change& change) {
+  return fmt::format("{{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}}}", change.version,
+                     quoted(change.parameter), quoted(change.was), json_of(change.default_was),
+                     quoted(change.note), quoted(change.attribute), double_text(change.factor),
+                     double_text(change.offset), bound(change.min_was), bound(change.max_was));
+}
+
 std::string parameter_row(const Parameter& parameter, const std::string& prefix, Tables& tables) {
   std::vector<std::string> values;
   for (const std::string& value : parameter.values) values.push_back(quoted(value));
   const std::string list =
       tables.add("std::string_view", prefix + identifier(parameter.name), values);
-  const auto bound = [](const std::optional<double>& number) {
-    return number ? double_text(*number) : std::string("std::nullopt");
-  };
   return fmt::format(
       "{{{}, static_cast<ParameterType>({}), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}}",
       quoted(parameter.name), static_cast<int>(parameter.type), quoted(parameter.frame),
@@ -114,11 +122,7 @@ std::string module_row(const Descriptor& module, Tables& tables) {
           fmt::format("{{{}, {}, {}}}", quoted(earlier), quoted(before), quoted(after)));
     }
   }
-  for (const Change& change : module.changes) {
-    changes.push_back(fmt::format("{{{}, {}, {}, {}, {}}}", change.version,
-                                  quoted(change.parameter), quoted(change.was),
-                                  json_of(change.default_was), quoted(change.note)));
-  }
+  for (const Change& change : module.changes) changes.push_back(change_row(change));
   const std::string parameter_list = tables.add("ParameterData", prefix + "parameters", parameters);
   const std::string creates_list = tables.add("CreatesData", prefix + "creates", creates);
   const std::string replaces_list = tables.add("ReplacesData", prefix + "replaces", replaces);

@@ -41,8 +41,16 @@ Creates make(const CreatesData& data) {
 }
 
 Change make(const ChangeData& data) {
-  return {data.version, std::string(data.parameter), std::string(data.was),
-          literal(data.default_was_json), std::string(data.note)};
+  return {data.version,
+          std::string(data.parameter),
+          std::string(data.was),
+          literal(data.default_was_json),
+          std::string(data.note),
+          std::string(data.attribute),
+          data.factor,
+          data.offset,
+          data.min_was,
+          data.max_was};
 }
 
 }  // namespace

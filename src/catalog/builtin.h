@@ -34,7 +34,9 @@ struct ReplacesData {
 
 struct ChangeData {
   int version;
-  std::string_view parameter, was, default_was_json, note;
+  std::string_view parameter, was, default_was_json, note, attribute;
+  double factor, offset;
+  std::optional<double> min_was, max_was;
 };
 
 struct ModuleData {

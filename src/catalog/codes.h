@@ -58,6 +58,15 @@ inline constexpr Code kBadChange{115, Severity::error, "bad entry under changes"
                                  "A change belongs to a version from 2 to the module's own and "
                                  "names a parameter that it has now."};
 
+inline constexpr Code kBadConversion{
+    131, Severity::error, "values cannot be converted like this",
+    "`factor` (not 0) and `offset` are for numbers, vectors and expressions, `min_was` and "
+    "`max_was` for parameters that have a range."};
+inline constexpr Code kSameEarlierName{
+    132, Severity::error, "two have had one earlier name",
+    "Two changes say of two parameters, or of two attributes, that they had the same name in the "
+    "same version. A value under that name would belong to both."};
+
 // Shapes.
 inline constexpr Code kEmptyShape{
     125, Severity::error, "shape has no lines",
@@ -83,7 +92,7 @@ inline constexpr const Code* kCatalogCodes[] = {
     &kDuplicateModule, &kDuplicateParameter, &kReservedParameter, &kDuplicateFrame,
     &kPresence,        &kWrongKeyForType,    &kBadRange,          &kBadValues,
     &kBadDefault,      &kDuplicateCreates,   &kBadReplaces,       &kBadChange,
-    &kEmptyShape,      &kDuplicateShape,     &kBadPoint,          &kBadCircle,
-    &kBadRepeat,       &kLargeShape};
+    &kBadConversion,   &kSameEarlierName,    &kEmptyShape,        &kDuplicateShape,
+    &kBadPoint,        &kBadCircle,          &kBadRepeat,         &kLargeShape};
 
 }  // namespace rigc::catalog::codes

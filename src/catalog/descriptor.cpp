@@ -27,10 +27,7 @@ class DescriptorReader {
   void read_head(std::uint32_t file);
   void read_creates();
   void read_replaces();
-  void read_changes();
-  void read_change(const yaml::Node& item);
   bool has_role(const std::string& role) const;
-  bool declares(const std::string& parameter);
 
   const yaml::Node& root_;
   Diagnostics& diagnostics_;
@@ -42,7 +39,7 @@ Descriptor DescriptorReader::read(std::uint32_t file) {
   read_parameters(root_, descriptor_, diagnostics_);
   read_creates();
   read_replaces();
-  read_changes();
+  read_changes(root_, descriptor_, diagnostics_);
   return std::move(descriptor_);
 }
 
@@ -82,16 +79,6 @@ void DescriptorReader::read_head(std::uint32_t file) {
 bool DescriptorReader::has_role(const std::string& role) const {
   return std::any_of(descriptor_.creates.begin(), descriptor_.creates.end(),
                      [&](const Creates& made) { return made.role == role; });
-}
-
-/// Whether the file declares a parameter, be the declaration good or bad.
-bool DescriptorReader::declares(const std::string& parameter) {
-  const yaml::Node* items = root_.find("parameters");
-  if (!items || !items->is_sequence()) return false;
-  return std::any_of(items->items.begin(), items->items.end(), [&](const yaml::Node& item) {
-    const yaml::Node* name = item.is_map() ? item.find("name") : nullptr;
-    return name && name->text == parameter;
-  });
 }
 
 void DescriptorReader::read_creates() {
@@ -138,48 +125,6 @@ void DescriptorReader::read_replaces() {
           suggest(*role, known));
     }
   }
-}
-
-void DescriptorReader::read_changes() {
-  for (const yaml::Node& item : list_of(root_, "changes", diagnostics_)) {
-    yaml::check_section(item, change_format(), diagnostics_);
-    if (item.is_map()) read_change(item);
-  }
-}
-
-void DescriptorReader::read_change(const yaml::Node& item) {
-  Change change;
-  if (const yaml::Node* version = need(item, "version", "change", diagnostics_)) {
-    const auto number = yaml::as_integer(*version, "version", diagnostics_);
-    if (number && (*number < 2 || *number > descriptor_.version)) {
-      diagnostics_.report(codes::kBadChange, version->span,
-                          fmt::format("version {} is not in 2..{}", *number, descriptor_.version));
-    } else if (number) {
-      change.version = static_cast<int>(*number);
-    }
-  }
-  change.note = text_of(item, "note", diagnostics_);
-  change.was = text_of(item, "was", diagnostics_);
-  const yaml::Node* name = item.find("parameter");
-  const Parameter* parameter = nullptr;
-  if (name) {
-    change.parameter = yaml::as_name(*name, "parameter", diagnostics_).value_or("");
-    parameter = descriptor_.find(change.parameter);
-  }
-  if (name && !change.parameter.empty() && !declares(change.parameter)) {
-    diagnostics_.report(codes::kBadChange, name->span,
-                        fmt::format("there is no parameter {}", change.parameter),
-                        "give the name that the parameter has now");
-  }
-  if (const yaml::Node* before = item.find("default_was")) {
-    change.default_was = literal_from(*before, diagnostics_);
-    const bool checkable = parameter && change.default_was;
-    if (const auto wrong = checkable ? mismatch(*parameter, *change.default_was) : std::nullopt) {
-      diagnostics_.report(codes::kBadDefault, wrong->span, "earlier default of " + wrong->message,
-                          wrong->hint);
-    }
-  }
-  descriptor_.changes.push_back(std::move(change));
 }
 
 }  // namespace

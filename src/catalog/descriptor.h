@@ -54,13 +54,18 @@ struct Creates {
   bool operator==(const Creates&) const = default;
 };
 
-/// One entry of `changes:`: what a version changed, applied by updates.
+/// One entry of `changes:`: what a version changed in one parameter, or in one attribute that the
+/// module puts on its controls. What it means: catalog/changes.h.
 struct Change {
   int version = 0;
-  std::string parameter;
-  std::string was;                     ///< earlier name of the parameter
-  std::optional<Literal> default_was;  ///< earlier default
+  std::string parameter;               ///< by its present name
+  std::string was;                     ///< earlier name of the parameter or attribute
+  std::optional<Literal> default_was;  ///< earlier default, as a command would have written it then
   std::string note;
+  std::string attribute;  ///< by its present name; in place of `parameter`
+  /// A number of the version before, as this version takes it: number * factor + offset.
+  double factor = 1, offset = 0;
+  std::optional<double> min_was, max_was;  ///< earlier range, as written then
   bool operator==(const Change&) const = default;
 };
 

@@ -89,8 +89,13 @@ const Section& change_format() {
       "change",
       {{"version", Form::integer, "The version that changed it.", {.required = true, .min = 2}},
        {"parameter", Form::name, "The parameter, by the name that it has now."},
-       {"was", Form::text, "Its earlier name."},
-       {"default_was", Form::any, "Its earlier default."},
+       {"attribute", Form::name, "Or an attribute of its controls, by the name that it has now."},
+       {"was", Form::name, "Its earlier name."},
+       {"factor", Form::number, "A number from before times this (default: 1)..."},
+       {"offset", Form::number, "... and plus this (default: 0) is what the version takes."},
+       {"default_was", Form::any, "Its earlier default, as it was written then."},
+       {"min_was", Form::number, "Its earlier smallest value, as it was written then."},
+       {"max_was", Form::number, "Its earlier largest value, as it was written then."},
        {"note", Form::text, "What changed, for people."}}};
   return kFormat;
 }

@@ -45,4 +45,7 @@ bool expect_map(const yaml::Node& node, std::string_view what, Diagnostics& diag
 /// `parameters:` with its frames, checked but for what concerns the whole descriptor.
 void read_parameters(const yaml::Node& map, Descriptor& descriptor, Diagnostics& diagnostics);
 
+/// `changes:`, behind the parameters that it names.
+void read_changes(const yaml::Node& map, Descriptor& descriptor, Diagnostics& diagnostics);
+
 }  // namespace rigc::catalog

@@ -101,16 +101,7 @@ bool takes_one(ParameterType type) {
   return type == ParameterType::node || type == ParameterType::plug;
 }
 
-/// The default that counts: of the pinned version where `changes:` say that it was another.
-const Literal* default_of(const Parameter& parameter, const catalog::Descriptor& descriptor,
-                          int pinned) {
-  if (pinned > 0) {
-    for (const catalog::Change& change : descriptor.changes) {
-      if (change.parameter == parameter.name && change.version > pinned && change.default_was) {
-        return &*change.default_was;
-      }
-    }
-  }
+const Literal* default_of(const Parameter& parameter) {
   return parameter.default_value ? &*parameter.default_value : nullptr;
 }
 
@@ -123,16 +114,15 @@ class Binder {
 
   std::optional<std::variant<Parameters, Skipped>> bind(const tags::CommandTag& command,
                                                         const catalog::Descriptor& descriptor,
-                                                        int pinned,
                                                         const catalog::Descriptor* base) {
     out_.command_ = command.span;
     bool good = true;
     for (const Parameter& parameter : descriptor.parameters) {
       const Literal* written = command.find(parameter.name);
-      const Literal* value = written ? written : default_of(parameter, descriptor, pinned);
+      const Literal* value = written ? written : default_of(parameter);
       const Span span = written && written->span.known() ? written->span : command.span;
       out_.spans_[parameter.name] = span;
-      fallback_ = written ? default_of(parameter, descriptor, pinned) : nullptr;
+      fallback_ = written ? default_of(parameter) : nullptr;
       if (value && !bind(parameter, *value, span)) good = false;
     }
     if (base) good = bind_defaults(*base, descriptor) && good;
@@ -302,9 +292,9 @@ class Binder {
 };
 
 std::optional<std::variant<Parameters, Skipped>> bind(
-    const tags::CommandTag& command, const catalog::Descriptor& descriptor, int pinned, double unit,
+    const tags::CommandTag& command, const catalog::Descriptor& descriptor, double unit,
     const traversal::Context& context, Diagnostics& diagnostics, const catalog::Descriptor* base) {
-  return Binder(unit, context, diagnostics).bind(command, descriptor, pinned, base);
+  return Binder(unit, context, diagnostics).bind(command, descriptor, base);
 }
 
 }  // namespace rigc::modules

@@ -65,12 +65,12 @@ struct Skipped {
 };
 
 /// Binds a command's arguments (checked when the template was read) and the descriptor's defaults.
-/// `pinned` is the module version whose defaults count, 0 for the newest. `unit`: rig units of a
+/// What a template pins was settled when it was read. `unit`: rig units of a
 /// template's metre. `base`: where the descriptor lends another module's constructor, that
 /// module's; its defaults stand in for parameters that the descriptor does not have.
 std::optional<std::variant<Parameters, Skipped>> bind(const tags::CommandTag& command,
                                                       const catalog::Descriptor& descriptor,
-                                                      int pinned, double unit,
+                                                      double unit,
                                                       const traversal::Context& context,
                                                       Diagnostics& diagnostics,
                                                       const catalog::Descriptor* base = nullptr);

@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "catalog/catalogue.h"
+#include "catalog/changes.h"
 #include "pipeline/codes.h"
 
 namespace rigc::pipeline {
@@ -42,8 +43,30 @@ std::string explain(const Descriptor& d) {
   for (const catalog::Creates& made : d.creates) {
     out += fmt::format("  {}  ({}, per {})\n      {}\n", made.role, made.kind, made.per, made.help);
   }
+  if (!d.changes.empty())
+    out += "\nChanges (templates that pin an earlier version keep what it had)\n";
+  for (const catalog::Change& change : d.changes)
+    out += fmt::format("  {}\n", printable(catalog::describe(change), 300));
   if (!d.example.empty()) out += "\nExample\n\n" + d.example;
   return out;
+}
+
+void write_change(json::Writer& w, const catalog::Change& change) {
+  w.begin_object().member("version", change.version);
+  for (const auto& [key, text] : {std::pair("parameter", &change.parameter),
+                                  {"attribute", &change.attribute},
+                                  {"was", &change.was},
+                                  {"note", &change.note}})
+    if (!text->empty()) w.member(key, *text);
+  if (change.factor != 1) w.member("factor", change.factor);
+  if (change.offset != 0) w.member("offset", change.offset);
+  if (change.default_was) {
+    w.key("default_was");
+    write(w, *change.default_was);
+  }
+  if (change.min_was) w.member("min_was", *change.min_was);
+  if (change.max_was) w.member("max_was", *change.max_was);
+  w.end_object();
 }
 
 void write_descriptor(json::Writer& w, const Descriptor& d) {
@@ -79,6 +102,8 @@ void write_descriptor(json::Writer& w, const Descriptor& d) {
     w.begin_object().member("role", made.role).member("kind", made.kind).member("per", made.per);
     w.member("help", made.help).end_object();
   }
+  w.end_array().key("changes").begin_array();
+  for (const catalog::Change& change : d.changes) write_change(w, change);
   w.end_array().member("example", d.example).end_object();
 }
 
@@ -157,6 +182,8 @@ std::string module_reference() {
     for (const catalog::Creates& made : d->creates) {
       out += fmt::format("| `{}` | {} | {} | {} |\n", made.role, made.kind, made.per, made.help);
     }
+    for (const catalog::Change& change : d->changes)
+      out += fmt::format("\n- Changed in {}.\n", catalog::describe(change));
     if (!d->example.empty()) out += fmt::format("\n```yaml\n{}```\n", d->example);
   }
   return out;

@@ -248,11 +248,33 @@ std::vector<std::string> earlier_names(const Descriptor& descriptor, const Param
   return names;
 }
 
+/// Whether a template that is pinned to an earlier version may leave it out.
+bool had_default(const Descriptor& descriptor, const Parameter& parameter) {
+  return std::any_of(descriptor.changes.begin(), descriptor.changes.end(),
+                     [&](const catalog::Change& change) {
+                       return change.parameter == parameter.name && change.default_was;
+                     });
+}
+
 void write_required(json::Writer& w, const Descriptor& descriptor) {
   w.key("required").begin_array();
   for (const Parameter& parameter : descriptor.parameters)
-    if (parameter.required && earlier_names(descriptor, parameter).empty()) w.value(parameter.name);
+    if (parameter.required && earlier_names(descriptor, parameter).empty() &&
+        !had_default(descriptor, parameter))
+      w.value(parameter.name);
   w.end_array();
+}
+
+/// A template that is pinned to an earlier version writes numbers of that version's unit and range:
+/// the editor does not know which counts.
+Parameter without_stale_range(const Descriptor& descriptor, Parameter parameter) {
+  for (const catalog::Change& change : descriptor.changes) {
+    if (change.parameter != parameter.name) continue;
+    const bool other_unit = change.factor != 1 || change.offset != 0;
+    if (other_unit || change.min_was) parameter.min.reset();
+    if (other_unit || change.max_was) parameter.max.reset();
+  }
+  return parameter;
 }
 
 }  // namespace
@@ -290,7 +312,8 @@ void write_arguments(json::Writer& w, const Descriptor& descriptor) {
   else
     write_types(w, {"object", "null"});
   w.member("additionalProperties", false).key("properties").begin_object();
-  for (const Parameter& parameter : descriptor.parameters) {
+  for (const Parameter& declared : descriptor.parameters) {
+    const Parameter parameter = without_stale_range(descriptor, declared);
     write_parameter(w, parameter.name, parameter);
     for (const std::string& name : earlier_names(descriptor, parameter))
       if (!descriptor.find(name)) write_parameter(w, name, parameter);

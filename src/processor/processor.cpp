@@ -63,13 +63,9 @@ bool Processor::construct(std::size_t at, scene::Edit& edit, Diagnostics& diagno
   where.forecast = [&](const selector::Choice& choice) {
     return forecast({skeleton_, commands_, catalogue_, at, diagnostics.sources()}, choice, where);
   };
-  int pinned = 0;
-  for (const auto& [module, version] : skeleton_.module_pins) {
-    if (module == tag.module) pinned = version;
-  }
   const std::size_t errors = diagnostics.errors();
-  auto bound = modules::bind(tag, *command.descriptor, pinned, skeleton_.character.unit, where,
-                             diagnostics, command.base);
+  auto bound = modules::bind(tag, *command.descriptor, skeleton_.character.unit, where, diagnostics,
+                             command.base);
   if (!bound) return false;
   if (const auto* skipped = std::get_if<modules::Skipped>(&*bound)) {
     diagnostics.report(

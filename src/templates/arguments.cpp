@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "catalog/changes.h"
 #include "selector/selector.h"
 #include "templates/codes.h"
 
@@ -55,21 +56,7 @@ bool check_selector(const Parameter& parameter, const Literal& value, Diagnostic
   return ok;
 }
 
-/// Today's name of a parameter that was called `name` at some version since the pinned one.
-std::string current_name(const catalog::Descriptor& descriptor, int pinned, std::string name) {
-  for (const catalog::Change& change : descriptor.changes)
-    if (change.version > pinned && !change.was.empty() && change.was == name)
-      name = change.parameter;
-  return name;
-}
-
-int pinned_version(const Template& owner, const catalog::Descriptor& descriptor) {
-  for (const auto& [module, version] : owner.module_pins)
-    if (module == descriptor.module) return version;
-  return descriptor.version;
-}
-
-bool check_argument(const catalog::Descriptor& descriptor, const Template& owner,
+bool check_argument(const catalog::Descriptor& descriptor, const Template& owner, int pinned,
                     tags::Argument& argument, Diagnostics& diagnostics) {
   const Parameter* parameter = declaration(descriptor, argument.name);
   if (!parameter) {
@@ -81,7 +68,30 @@ bool check_argument(const catalog::Descriptor& descriptor, const Template& owner
   }
   if (contains_parameter(argument.value)) return check_declared(argument.value, owner, diagnostics);
   to_metres(*parameter, owner.metres_per_unit, argument.value);
+  convert_value(descriptor, *parameter, pinned, argument.value, diagnostics);
   return check_value(*parameter, argument.value, diagnostics);
+}
+
+/// Arguments get the names that parameters have now.
+void rename_arguments(const catalog::Descriptor& descriptor, int version, tags::CommandTag& command,
+                      Diagnostics& diagnostics) {
+  if (version >= descriptor.version) return;
+  for (std::size_t i = 0; i < command.with.size(); ++i) {
+    tags::Argument& argument = command.with[i];
+    const Parameter* parameter = catalog::parameter_at(descriptor, version, argument.name);
+    if (parameter) argument.name = parameter->name;
+    for (std::size_t j = 0; parameter && j < i; ++j)
+      if (command.with[j].name == argument.name)
+        diagnostics.report(codes::kArgumentTwice, argument.span,
+                           fmt::format("{} is given by two names", argument.name),
+                           "remove one of them");
+  }
+}
+
+void move_to(const Span& span, Literal& value) {
+  value.span = span;
+  for (Literal& item : value.items) move_to(span, item);
+  for (auto& entry : value.entries) move_to(span, entry.second);
 }
 
 int compare(const Literal& a, const Literal& b) {
@@ -142,21 +152,70 @@ const Parameter* declaration(const catalog::Descriptor& descriptor, std::string_
   return nullptr;
 }
 
+int pinned_version(const Template& owner, const catalog::Descriptor& descriptor) {
+  for (const auto& [module, version] : owner.module_pins)
+    if (module == descriptor.module) return version;
+  return descriptor.version;
+}
+
 void check_arguments(const catalog::Descriptor& descriptor, const Template& owner,
                      tags::CommandTag& command, Diagnostics& diagnostics) {
   const int pinned = pinned_version(owner, descriptor);
-  for (tags::Argument& argument : command.with) {
-    if (pinned < descriptor.version)
-      argument.name = current_name(descriptor, pinned, argument.name);
-    check_argument(descriptor, owner, argument, diagnostics);
-  }
+  rename_arguments(descriptor, pinned, command, diagnostics);
+  for (tags::Argument& argument : command.with)
+    check_argument(descriptor, owner, pinned, argument, diagnostics);
   for (const Parameter& parameter : descriptor.parameters) {
     if (!parameter.required || command.find(parameter.name)) continue;
+    if (catalog::default_at(descriptor, parameter, pinned)) continue;
     diagnostics.report(
         codes::kMissingArgument, command.span,
         fmt::format("{} needs the parameter \"{}\"", descriptor.module, parameter.name),
         parameter.help);
   }
+}
+
+void convert_value(const catalog::Descriptor& descriptor, const Parameter& parameter, int version,
+                   Literal& value, Diagnostics& diagnostics) {
+  if (version >= descriptor.version) return;
+  if (!catalog::convert(descriptor, parameter, version, value)) return;
+  diagnostics.report(codes::kClamped, value.span,
+                     fmt::format("{}: version {} of {} allowed this value, version {} does not",
+                                 parameter.name, version, descriptor.module, descriptor.version),
+                     fmt::format("{} is used", value.kind == Literal::Kind::number
+                                                   ? value.text
+                                                   : "the nearest end of the range"));
+}
+
+void add_earlier_defaults(const catalog::Descriptor& descriptor, int version,
+                          tags::CommandTag& command) {
+  if (version >= descriptor.version) return;
+  for (const Parameter& parameter : descriptor.parameters) {
+    if (command.find(parameter.name)) continue;
+    auto value = catalog::default_at(descriptor, parameter, version);
+    if (!value) continue;
+    move_to(command.span, *value);
+    command.with.push_back({parameter.name, command.span, std::move(*value)});
+  }
+}
+
+bool upgrade(const catalog::Descriptor& descriptor, int version, tags::CommandTag& command,
+             Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.errors();
+  rename_arguments(descriptor, version, command, diagnostics);
+  std::erase_if(command.with, [&](const tags::Argument& argument) {
+    if (declaration(descriptor, argument.name)) return false;
+    diagnostics.report(codes::kArgumentGone, argument.span,
+                       fmt::format("{} has no parameter \"{}\" any more", descriptor.module,
+                                   printable(argument.name, 60)));
+    return true;
+  });
+  for (tags::Argument& argument : command.with) {
+    const Parameter& parameter = *declaration(descriptor, argument.name);
+    convert_value(descriptor, parameter, version, argument.value, diagnostics);
+    check_value(parameter, argument.value, diagnostics);
+  }
+  add_earlier_defaults(descriptor, version, command);
+  return diagnostics.errors() == errors;
 }
 
 bool check_value(const Parameter& parameter, const Literal& value, Diagnostics& diagnostics) {

@@ -33,11 +33,29 @@ bool check_declared(const Literal& value, const Template& owner, Diagnostics& di
 const catalog::Parameter* declaration(const catalog::Descriptor& descriptor,
                                       std::string_view argument);
 
-/// Checks all arguments of a command as written. Names of earlier versions (`changes:`) up to the
-/// pinned one become today's, lengths become metres. Values with `$name` are checked by check_value
-/// once they are known.
+/// The version of a module that a template was written for: its pin, else the present one.
+int pinned_version(const Template& owner, const catalog::Descriptor& descriptor);
+
+/// Checks all arguments of a command as written. What was written for the pinned version (names,
+/// units, ranges: `changes:`) becomes what the module takes now, lengths become metres. Values with
+/// `$name` are converted and checked once they are known.
 void check_arguments(const catalog::Descriptor& descriptor, const Template& owner,
                      tags::CommandTag& command, Diagnostics& diagnostics);
+
+/// A value of an earlier version of the module as the present one takes it; a value of the earlier
+/// range that lies outside of today's is reported.
+void convert_value(const catalog::Descriptor& descriptor, const catalog::Parameter& parameter,
+                   int version, Literal& value, Diagnostics& diagnostics);
+
+/// Writes out what a command of an earlier version leaves to defaults that are others now.
+void add_earlier_defaults(const catalog::Descriptor& descriptor, int version,
+                          tags::CommandTag& command);
+
+/// A command that was written for an earlier version of its module (and expanded: without `$name`)
+/// as the present version takes it: names, units, ranges, defaults. A parameter that is gone is
+/// reported and left out. False where a value no longer fits, which is an error.
+bool upgrade(const catalog::Descriptor& descriptor, int version, tags::CommandTag& command,
+             Diagnostics& diagnostics);
 
 /// Type, range, choice, selector and expression syntax of one value.
 bool check_value(const catalog::Parameter& parameter, const Literal& value,

@@ -61,20 +61,24 @@ void Expander::add_command(RawJoint& joint, const Command& command, int feature)
   tag.feature = feature;
   for (std::string& was : tag.was) was = earlier_holder(joint, was);
   const catalog::Descriptor* descriptor = catalogue_.find(tag.module);
+  const int pinned = descriptor ? pinned_version(*use.source, *descriptor) : 0;
   for (tags::Argument& argument : tag.with) {
     const catalog::Parameter* parameter =
         descriptor ? declaration(*descriptor, argument.name) : nullptr;
     if (!parameter) continue;  // reported when the template was read
-    bind_value(use, *parameter, argument);
+    bind_value(use, *descriptor, pinned, *parameter, argument);
     if (parameter->is_signed && use.mirrored) turn_round(argument.value);
     rename(joint.use, *parameter, argument.value);
   }
+  // Defaults are what they are on every side and in every part.
+  if (descriptor) add_earlier_defaults(*descriptor, pinned, tag);
   joint.result.tagged.commands.push_back(std::move(tag));
 }
 
-void Expander::bind_value(const Use& use, const catalog::Parameter& parameter,
-                          tags::Argument& argument) {
+void Expander::bind_value(const Use& use, const catalog::Descriptor& descriptor, int pinned,
+                          const catalog::Parameter& parameter, tags::Argument& argument) {
   if (use.environment.empty() || !substitute(argument.value, use.environment)) return;
+  convert_value(descriptor, parameter, pinned, argument.value, diagnostics_);
   check_value(parameter, argument.value, diagnostics_);
 }
 

@@ -86,7 +86,8 @@ class Expander {
   // expand_tags.cpp
   void add_tags(RawJoint& joint);
   void add_command(RawJoint& joint, const Command& command, int feature);
-  void bind_value(const Use& use, const catalog::Parameter& parameter, tags::Argument& argument);
+  void bind_value(const Use& use, const catalog::Descriptor& descriptor, int pinned,
+                  const catalog::Parameter& parameter, tags::Argument& argument);
   void rename(int use, const catalog::Parameter& parameter, Literal& value);
   void collect_features();
   void check_declared_outside(const Use& use, const tags::FeatureTag& tag);
@@ -98,6 +99,7 @@ class Expander {
   std::string earlier_holder(const RawJoint& joint, const std::string& was) const;
   void pair_sides();
   void pair_uses(int a, int b);
+  void pair_written();
 
   // expand.cpp: the result
   std::vector<int> order() const;
@@ -116,8 +118,5 @@ class Expander {
   /// Tags that were reported: a part that is used twice has its mistakes once.
   std::set<std::pair<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>>> undeclared_;
 };
-
-/// `elbow_l` for `elbow_r`, `LeftArm` is not understood; empty where no word names a side.
-std::string other_side(std::string_view name);
 
 }  // namespace rigc::templates

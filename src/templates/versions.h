@@ -24,6 +24,10 @@ struct Head {
 /// template. What usual templates have is found line by line, everything else by the YAML reader.
 std::optional<Head> scan_head(std::string_view text);
 
+/// The references of a template's text to parts, in order, without reading the rest of it where it
+/// is written as people write it; perhaps also words that are none.
+std::vector<std::string> scan_parts(std::string_view text);
+
 /// One template file.
 struct TemplateVersion {
   std::string name;
@@ -59,7 +63,8 @@ class Versions {
   void report_twins(Diagnostics& diagnostics) const;
 
   /// Sorted by name, then parts last, newest first, then in the order of the folders and paths.
-  const std::vector<TemplateVersion>& all() const { return all_; }
+  const std::vector<TemplateVersion>& all() const& { return all_; }
+  void all() && = delete;
 
  private:
   struct Run {

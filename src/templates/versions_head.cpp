@@ -2,6 +2,7 @@
 // The head of a template's text: by lines where it is written as people write it, else by the YAML
 // reader. Test: tests/templates/versions_test.cpp
 #include <algorithm>
+#include <cstring>
 
 #include "base/text.h"
 #include "base/yaml.h"
@@ -153,6 +154,43 @@ std::optional<Head> read_whole(std::string_view text) {
   return head;
 }
 
+constexpr std::string_view kPartKey = "template";
+
+/// What follows each `template:` that is no comment; nothing where one is quoted, has a value that
+/// is, or is an alias.
+std::optional<std::vector<std::string>> parts_by_line(std::string_view text) {
+  constexpr std::string_view kBehind = " \t\r\n,}#";
+  std::vector<std::string> found;
+  for (std::size_t at = text.find(kPartKey); at != std::string_view::npos;
+       at = text.find(kPartKey, at + 1)) {
+    const std::size_t line = text.rfind('\n', at) + 1;  // npos + 1: the first line
+    const std::string_view before = text.substr(line, at - line);
+    std::string_view rest = text.substr(at + kPartKey.size());
+    if (trim(before).starts_with('#')) continue;
+    if (rest.starts_with('"') || rest.starts_with('\'')) return std::nullopt;
+    if (!rest.starts_with(':') || before.empty() || !std::strchr(" \t{,-", before.back())) continue;
+    rest = trim(rest.substr(1, rest.find('\n') - 1));
+    const std::string_view value = rest.substr(0, rest.find_first_of(kBehind));
+    if (value.empty() || std::strchr("\"'*&!|>", value.front())) return std::nullopt;
+    found.emplace_back(value);
+  }
+  return found;
+}
+
+std::vector<std::string> read_parts(std::string_view text) {
+  Diagnostics quiet;
+  const std::uint32_t file = quiet.sources().add("template.yaml", std::string(text));
+  const auto root = yaml::read(file, quiet);
+  const yaml::Node* parts = root && root->is_map() ? root->find("parts") : nullptr;
+  std::vector<std::string> found;
+  if (!parts) return found;
+  for (const yaml::Node& part : parts->items) {
+    const yaml::Node* reference = part.is_map() ? part.find(kPartKey) : nullptr;
+    if (reference && reference->is_scalar()) found.push_back(reference->text);
+  }
+  return found;
+}
+
 /// Whether a line begins with the key, or the whole is one `{...}`: all else is no template, and
 /// need not be read as YAML to say so.
 bool may_be_template(std::string_view text) { return text.find("rigc") != std::string_view::npos; }
@@ -163,6 +201,11 @@ std::optional<Head> scan_head(std::string_view text) {
   if (!may_be_template(text)) return std::nullopt;
   LineScan scan(text);
   return scan.run() ? scan.take_head() : read_whole(text);
+}
+
+std::vector<std::string> scan_parts(std::string_view text) {
+  auto found = parts_by_line(text);
+  return found ? std::move(*found) : read_parts(text);
 }
 
 }  // namespace rigc::templates

@@ -51,7 +51,8 @@ Destination Remap::find(std::size_t index, const Property& property) const {
   const Source& source = sources_[index];
   Destination out;
   const bool attribute = property.path == anim::Path::attribute;
-  if (property.path == anim::Path::weights ||
+  // Meshes have no transform that means anything to the rig.
+  if (property.path == anim::Path::weights || source.kind == scene::Kind::mesh ||
       (attribute && !is_attribute(source, property.attribute))) {
     out.kind = Destination::Kind::foreign;
     return out;

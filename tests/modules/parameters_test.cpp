@@ -37,7 +37,6 @@ struct Binding {
   tags::CommandTag command;
   catalog::Descriptor descriptor;
   double unit = 1;
-  int pinned = 0;
 
   explicit Binding(ParameterType type) {
     REQUIRE(rig.clean());
@@ -52,7 +51,7 @@ struct Binding {
     descriptor.parameters = {parameter};
     const traversal::Context context{
         rig.scene(), rig.index(), rig.skeleton.global, rig.node("base.base"), {}};
-    return modules::bind(command, descriptor, pinned, unit, context, diagnostics);
+    return modules::bind(command, descriptor, unit, context, diagnostics);
   }
   modules::Parameters parameters() {
     auto bound = bind();
@@ -142,26 +141,6 @@ TEST_CASE("modules parameters: defaults count where nothing is written, and may 
   CHECK(self.parameters().node("p") == self.rig.node("base.base"));
 }
 
-TEST_CASE("modules parameters: a pinned version keeps the defaults that it had") {
-  const auto at_version = [](int pinned) {
-    Binding number(ParameterType::number);
-    number.pinned = pinned;
-    number.parameter.default_value = Literal::of(3.0);
-    number.descriptor.version = 3;
-    number.descriptor.changes = {{2, "p", "", Literal::of(1.0), ""},
-                                 {3, "p", "", Literal::of(2.0), ""}};
-    return number.parameters().number("p");
-  };
-  CHECK(at_version(1) == 1);
-  CHECK(at_version(2) == 2);
-  CHECK(at_version(3) == 3);
-  CHECK(at_version(0) == 3);
-  Binding written(ParameterType::number);
-  written.pinned = 1;
-  written.descriptor.changes = {{2, "p", "", Literal::of(1.0), ""}};
-  CHECK(written.with(Literal::of(9.0)).parameters().number("p") == 9);
-}
-
 TEST_CASE("modules parameters: a required selector that is optional and empty skips the command") {
   Binding node(ParameterType::node);
   node.parameter.required = true;
@@ -211,8 +190,7 @@ TEST_CASE("modules parameters: all wrong arguments of a command are reported at 
                                    binding.rig.skeleton.global,
                                    binding.rig.node("base.base"),
                                    {}};
-  CHECK_FALSE(
-      modules::bind(binding.command, binding.descriptor, 0, 1, context, binding.diagnostics));
+  CHECK_FALSE(modules::bind(binding.command, binding.descriptor, 1, context, binding.diagnostics));
   CHECK(test::codes(binding.diagnostics) == "RIG0420 RIG0421");
 }
 

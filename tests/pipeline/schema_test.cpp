@@ -44,8 +44,14 @@ implementation: control
 parameters:
   - {name: height, type: length, unit: metre, required: true, min: -1, max: 2, help: How high.}
   - {name: speed, type: float, default: 1, min: 0.5, help: How fast.}
+  - {name: turns, type: float, default: 1, min: 0, max: 9, help: How often.}
+  - {name: slope, type: float, default: 1, min: 0, max: 9, help: How steep.}
+  - {name: floor, type: node, required: true, help: On what.}
 changes:
   - {version: 2, parameter: height, was: size}
+  - {version: 2, parameter: turns, max_was: 20}
+  - {version: 2, parameter: slope, factor: 0.1}
+  - {version: 3, parameter: floor, default_was: ..}
 )";
 
 pipeline::Paths user_modules() {
@@ -105,6 +111,10 @@ TEST_CASE("pipeline schema: modules of a user's folder") {
   CHECK(with["properties"]["height"]["maximum"] == 200);
   CHECK(with["properties"]["speed"]["minimum"] == 0.5);
   CHECK(with["properties"]["speed"]["default"] == 1);
+  // Templates that are pinned to earlier versions write values of those.
+  CHECK(with["properties"]["turns"]["minimum"] == 0);
+  CHECK_FALSE(with["properties"]["turns"].contains("maximum"));
+  CHECK_FALSE(with["properties"]["slope"].contains("minimum"));
   // The earlier name serves templates that are pinned to the earlier version.
   CHECK(with["properties"]["size"].contains("deprecationMessage"));
   CHECK(with["required"].empty());

@@ -124,7 +124,7 @@ TEST_CASE("templates versions: the highest version counts, then the earlier fold
   const Template* lamp = library.open(a.path() + "/lamp.yaml", diagnostics);
   REQUIRE(lamp);
   CHECK(lamp->digest == both.find("lamp", 3)->digest);
-  CHECK(Versions({a.path() + "/nothing"}).all().empty());
+  CHECK_FALSE(Versions({a.path() + "/nothing"}).newest("lamp"));
 }
 
 TEST_CASE("templates versions: two files of one folder that claim one version are reported") {
@@ -184,4 +184,28 @@ TEST_CASE("templates versions: what --to names") {
   CHECK_FALSE(versions.resolve("lmap", diagnostics));
   CHECK(numbers(diagnostics) == std::vector<int>{290, 290, 290});
   CHECK(diagnostics.all()[2].hint == "did you mean \"lamp\"?");
+}
+
+TEST_CASE("templates versions: references to parts are found without reading the template") {
+  using Names = std::vector<std::string>;
+  CHECK(scan_parts("rigc: 1\nparts:\n  - {template: parts/arm, as: l}\n  - template: b  # b\n"
+                   "    as: template\n  - { as: c,template: c}\n  - {as: d, template: d}\r\n"
+                   "# - template: no\n  - my_template: no\n") == Names{"parts/arm", "b", "c", "d"});
+  CHECK(scan_parts("template: a").empty());  // at the top level it is no part's
+  CHECK(scan_parts("rigc: 1\nparts: [{template: 'a b'}, {template: b}]\n") == Names{"a b", "b"});
+  CHECK(scan_parts("parts: [{\"template\": a}]\n") == Names{"a"});
+  CHECK(scan_parts("description: &a arm\nparts:\n- template: *a\n- template:\n    b\n") ==
+        Names{"arm", "b"});
+  CHECK(scan_parts("parts: [{template: 'a}]\n").empty());
+  Diagnostics diagnostics;
+  Library library({template_folder()}, catalogue());
+  const Versions versions({template_folder()});
+  for (const TemplateVersion& file : versions.all()) {
+    CAPTURE(file.path);
+    const Template* whole = library.open(file.path, diagnostics);
+    REQUIRE(whole);
+    std::vector<std::string> references;
+    for (const Part& part : whole->parts) references.push_back(part.reference);
+    CHECK(scan_parts(diagnostics.sources().text(whole->file)) == references);
+  }
 }
