@@ -166,6 +166,7 @@ bool Recompilation::write(const FileWork& work, std::uint64_t& bytes, Diagnostic
     std::move(own.begin(), own.end(), std::back_inserter(edits));
   }
   gltf::edit_channels(patch, *file_, edits);
+  if (!keep_original(work, file_->whole, diagnostics)) return false;
   return write_output(patch, *file_, work.output, bytes, diagnostics);
 }
 
