@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   rigc::bench::add_json_benchmarks();
   rigc::bench::add_stage_benchmarks();
   rigc::bench::add_eval_benchmarks();
+  rigc::bench::add_batch_benchmarks();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

@@ -60,18 +60,22 @@ void declare_modules(Options& options, pipeline::Paths& paths);
 /// What `build` and `plan` share: template, model, features, groups, how far to run.
 void declare_build(Options& options, pipeline::BuildRequest& request);
 
+std::unique_ptr<Command> make_adopt();
 std::unique_ptr<Command> make_bake();
 std::unique_ptr<Command> make_build();
 std::unique_ptr<Command> make_check();
 std::unique_ptr<Command> make_completions();
 std::unique_ptr<Command> make_docs();
+std::unique_ptr<Command> make_extract();
 std::unique_ptr<Command> make_inspect();
 std::unique_ptr<Command> make_map();
+std::unique_ptr<Command> make_merge();
 std::unique_ptr<Command> make_modules();
 std::unique_ptr<Command> make_plan();
 std::unique_ptr<Command> make_prune();
 std::unique_ptr<Command> make_query();
 std::unique_ptr<Command> make_rebuild();
+std::unique_ptr<Command> make_rename();
 std::unique_ptr<Command> make_schema();
 std::unique_ptr<Command> make_status();
 std::unique_ptr<Command> make_strip();

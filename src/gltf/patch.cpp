@@ -162,6 +162,16 @@ int Patch::append_view(std::string_view data, int target) {
   return view.index;
 }
 
+void Patch::append_bytes(Bytes bytes, std::function<void(int buffer, std::uint64_t at)> placed) {
+  State& state = *state_;
+  // The buffer without a URI comes first: no other may take its place.
+  if (count("buffers") == 0) state.array("buffers").appended.emplace_back();
+  PendingView view{-1, 0, bytes.size()};
+  view.bytes = std::move(bytes);
+  view.placed = std::move(placed);
+  state.views.push_back(std::move(view));
+}
+
 int Patch::append(NewAccessor accessor) {
   json::Writer writer;
   writer.begin_object();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,6 +64,9 @@ class Patch {
   int append(NewAccessor accessor);
   /// Adds bytes with a buffer view of their own and gives the view's index.
   int append_view(std::string_view data, int target);
+  /// Adds bytes as they are, on a multiple of 8. When the patch finishes, `placed` is told which
+  /// buffer has them and from which byte on, and replaces the views that lie in them.
+  void append_bytes(Bytes bytes, std::function<void(int buffer, std::uint64_t at)> placed);
   /// How many elements a top-level array has, appended ones included.
   int count(std::string_view array) const;
   /// Indices that append gave out, in order.
@@ -97,6 +101,10 @@ class Patch {
   /// Text of an extension of the root object as it is now; empty where there is none.
   std::string root_extension(std::string_view name) const;
   void use_extension(std::string_view name);
+  /// Sets or (empty) removes a member of the root object that is no top-level array.
+  void set_root_member(std::string_view name, std::string json);
+  /// Its text as it is now; empty where there is none.
+  std::string root_member(std::string_view name) const;
   void drop_extension(std::string_view name);
   /// What `RIGC_rig.before` has to say so that taking out all that was added gives the very bytes
   /// back. A file that has it keeps it: this is what to write next.

@@ -14,7 +14,9 @@ using State = Patch::State;
 using Intervals = std::vector<Interval>;
 using Home = BytePlan::Home;
 
-std::uint64_t aligned(std::uint64_t size) { return (size + 3) / 4 * 4; }
+std::uint64_t aligned(std::uint64_t size, std::uint64_t step = 4) {
+  return (size + step - 1) / step * step;
+}
 
 void sort(Intervals& list) {
   std::sort(list.begin(), list.end(), [](const Interval& a, const Interval& b) {
@@ -143,12 +145,13 @@ void place(const State& state, BytePlan& plan) {
       plan.home == Home::bin && plan.chunk ? std::max(*plan.chunk, plan.length) : plan.length;
   for (std::size_t i = 0; i < state.views.size(); ++i) {
     const std::uint64_t length = state.views[i].length;
+    const std::uint64_t step = state.views[i].alignment();
     const auto hole = std::find_if(plan.free.begin(), plan.free.end(), [&](const Interval& free) {
-      return aligned(free.begin) + length <= free.end;
+      return aligned(free.begin, step) + length <= free.end;
     });
-    std::uint64_t at = aligned(end);
+    std::uint64_t at = aligned(end, step);
     if (hole != plan.free.end()) {
-      at = aligned(hole->begin);
+      at = aligned(hole->begin, step);
       hole->begin = std::min(aligned(at + length), hole->end);
       if (hole->begin == hole->end) plan.free.erase(hole);
     } else {
@@ -200,7 +203,9 @@ std::vector<Bytes> pieces_of(const State& state, const BytePlan& plan, std::uint
   };
   for (const Placed& placed : plan.placed) {
     keep(placed.at);
-    pieces.push_back(state.data.substr(state.views[placed.view].offset, placed.length));
+    const PendingView& view = state.views[placed.view];
+    pieces.push_back(view.placed ? view.bytes
+                                 : Bytes(state.data.substr(view.offset, placed.length)));
     at += placed.length;
   }
   keep(length);

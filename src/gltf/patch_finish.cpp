@@ -39,7 +39,10 @@ int write_buffer(State& state, const BytePlan& plan, const std::string& uri) {
   if (!uri.empty()) writer.member("uri", uri);
   ArrayChanges& buffers = state.slots("buffers");
   std::size_t index = buffers.size();
-  if (!buffers.free.empty()) {
+  if (index > 0 && buffers.text(0).empty()) {
+    index = 0;  // kept for it
+    buffers.set(index, writer.end_object().take());
+  } else if (!buffers.free.empty()) {
     index = *buffers.free.begin();
     buffers.free.erase(buffers.free.begin());
     buffers.set(index, writer.end_object().take());
@@ -52,6 +55,10 @@ int write_buffer(State& state, const BytePlan& plan, const std::string& uri) {
 void write_views(State& state, const BytePlan& plan, int buffer) {
   for (const Placed& placed : plan.placed) {
     const PendingView& view = state.views[placed.view];
+    if (view.placed) {
+      view.placed(buffer, placed.at);
+      continue;
+    }
     json::Writer writer;
     writer.begin_object().member("buffer", buffer).key("byteOffset");
     writer.integer(static_cast<std::int64_t>(placed.at)).key("byteLength");

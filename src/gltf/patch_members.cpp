@@ -172,6 +172,12 @@ void Patch::set_root_extension(std::string_view name, std::string json) {
   removes ? drop_extension(name) : use_extension(name);
 }
 
+void Patch::set_root_member(std::string_view name, std::string json) {
+  state_->set_member(name, std::move(json));
+}
+
+std::string Patch::root_member(std::string_view name) const { return state_->member(name); }
+
 void Patch::use_extension(std::string_view name) {
   const std::string used = state_->member("extensionsUsed");
   state_->fills("/extensionsUsed", used);

@@ -45,12 +45,16 @@ struct ArrayChanges {
   bool keeps(std::size_t index) const { return index < kept && free.count(index) == 0; }
 };
 
-/// A buffer view of ours, written when the place of its bytes is known.
+/// A buffer view of ours, written when the place of its bytes is known; or bytes whose views
+/// somebody else writes.
 struct PendingView {
-  int index = 0;             ///< in bufferViews
+  int index = 0;             ///< in bufferViews; -1: `placed` writes the views
   std::uint64_t offset = 0;  ///< in State::data
   std::uint64_t length = 0;
   int target = 0;
+  Bytes bytes = {};  ///< instead of State::data
+  std::function<void(int buffer, std::uint64_t at)> placed = {};
+  std::uint64_t alignment() const { return placed ? 8 : 4; }
 };
 
 /// What cannot be told from a file with a rig: kept in RIGC_rig as `before`, so that taking the rig

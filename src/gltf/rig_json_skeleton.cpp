@@ -29,6 +29,7 @@ void write_templates(json::Writer& writer, const std::vector<tags::TemplateRefer
     writer.member("version", templates[i].version);
     if (!templates[i].digest.empty()) writer.member("digest", templates[i].digest);
     if (!files[i].empty()) writer.member("file", files[i]);
+    if (templates[i].main) writer.member("main", true);
     writer.end_object();
   }
   writer.end_array();
@@ -42,6 +43,7 @@ void read_templates(const json::Value& rig, JsonReader& reader, tags::TaggedSkel
     if (reader.get(item, "digest", reference.digest) && !parse_hex16(reference.digest))
       reader.fail(codes::kRigText, item["digest"], "a digest has 16 hex digits");
     reader.get(item, "file", reference.file);
+    reader.get(item, "main", reference.main);
     out.templates.push_back(std::move(reference));
   }
 }

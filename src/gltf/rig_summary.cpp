@@ -44,8 +44,8 @@ OrphanSummary read_orphan(const json::Value& object, JsonReader& reader) {
   reader.get(object, "name", orphan.name);
   reader.get(object, "local", orphan.local);
   reader.get(object, "label", orphan.label);
-  for (auto& [name, value] : reader.members(object, "attributes"))
-    orphan.attributes.push_back(name);
+  for (const json::Value& attribute : reader.objects(object, "attributes", kMostNodes))
+    reader.get(attribute, "name", orphan.attributes.emplace_back(), Need::required);
   return orphan;
 }
 

@@ -83,8 +83,15 @@ bool check_evaluates(const scene::Scene& scene, Diagnostics& diagnostics);
 bool check_evaluates(const gltf::File& file, const gltf::Rig& rig, Diagnostics& diagnostics);
 /// Ends in .glb or .gltf; else reported.
 bool check_output_name(const std::string& out, Diagnostics& diagnostics);
-/// Writes a finished patch: buffers first, then the file.
+/// Files beside an input that the output goes on naming: relative paths.
+struct Beside {
+  std::string input;
+  std::vector<std::string> names;
+};
+/// Writes a finished patch: buffers first, then the file. `more`: of files that were merged into
+/// `file`.
 bool write_output(gltf::Patch& patch, const gltf::File& file, const std::string& out,
-                  std::uint64_t& bytes, Diagnostics& diagnostics);
+                  std::uint64_t& bytes, Diagnostics& diagnostics,
+                  const std::vector<Beside>& more = {});
 
 }  // namespace rigc::pipeline

@@ -84,11 +84,34 @@ inline constexpr Code kNothingToCheck{
     "In a folder, `rigc check` takes .glb, .gltf and .vrm files, and YAML files with the key "
     "`rigc`, `map` or `module`."};
 
+// Extract and adopt: 850..879.
+inline constexpr Code kWhichRig{850, Severity::error, "which rig",
+                                "The file has several rigs, or none of that name. --rig names one "
+                                "by its global group; `rigc inspect` lists them."};
+inline constexpr Code kNotATemplateName{
+    851, Severity::error, "not a template's name or version",
+    "A template's name has letters, digits, `_` and `-` and does not start with a digit; its "
+    "version is an integer from 1."};
+
+inline constexpr Code kNothingToAdopt{
+    852, Severity::error, "no node to adopt from",
+    "Nodes are known by the custom property `rigc`. The edited file has none, or those of another "
+    "rig. Blender exports them with `Include > Custom Properties`."};
+inline constexpr Code kCopiedNode{
+    853, Severity::error, "two nodes say that they are one",
+    "A node was duplicated with its custom property `rigc`. Remove that from the copy."};
+inline constexpr Code kStrangers{
+    854, Severity::warning, "nodes that the rig does not have",
+    "The edited file has nodes of a rig, or of a version of it, that the file given by --rig does "
+    "not have. What was done to them is not adopted."};
+
 inline constexpr const Code* kPipelineCodes[] = {
-    &kNoSkeleton,     &kSeveralSkeletons, &kNoSuchSkeleton, &kHasRig,      &kNoRig,
-    &kNoSuchClip,     &kForeignChannels,  &kBadRange,       &kShear,       &kUnknownFormat,
-    &kNotOneSelector, &kNoSuchModule,     &kLockedKeys,     &kNothingFits, &kNoAttributeKeyed,
-    &kDrivenKeyed,    &kNotAControl,      &kOutsideLimits,  &kNodesMoved,  &kNoIdentity,
-    &kCannotPin,      &kNothingToCheck};
+    &kNoSkeleton,     &kSeveralSkeletons, &kNoSuchSkeleton,   &kHasRig,
+    &kNoRig,          &kNoSuchClip,       &kForeignChannels,  &kBadRange,
+    &kShear,          &kUnknownFormat,    &kNotOneSelector,   &kNoSuchModule,
+    &kLockedKeys,     &kNothingFits,      &kNoAttributeKeyed, &kDrivenKeyed,
+    &kNotAControl,    &kOutsideLimits,    &kNodesMoved,       &kNoIdentity,
+    &kCannotPin,      &kNothingToCheck,   &kWhichRig,         &kNotATemplateName,
+    &kNothingToAdopt, &kCopiedNode,       &kStrangers};
 
 }  // namespace rigc::pipeline::codes

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "base/files.h"
 #include "base/text.h"
@@ -17,51 +18,58 @@ namespace {
 
 constexpr std::uint64_t kLargestCopy = std::uint64_t{4} << 30;
 
-/// A file beside the input that is to stand beside the output too.
-struct Copy {
-  std::string to;
-  Bytes bytes;
-};
-
 /// Gathers what is to be copied: nothing where a file lies on its place, or where it was missing
 /// already. False where another file lies there.
 class Copies {
  public:
-  Copies(const std::string& input, const std::string& out, Diagnostics& diagnostics)
-      : from_folder_(folder_of(input)),
-        to_folder_(folder_of(out)),
+  Copies(const std::string& out, Diagnostics& diagnostics)
+      : to_folder_(folder_of(out)),
         out_(confine(to_folder_, file_name(out))),
-        place_(input),
         diagnostics_(diagnostics) {}
 
-  bool add(const std::string& name) {
-    const auto from = confine(from_folder_, name);
+  bool add(const Beside& beside) {
+    place_ = Place(beside.input);
+    bool good = true;
+    for (const std::string& name : beside.names) good = add(folder_of(beside.input), name) && good;
+    return good;
+  }
+
+  bool write() {
+    return std::all_of(list_.begin(), list_.end(), [&](const auto& copy) {
+      std::error_code refused;  // write_file reports that there is no folder
+      std::filesystem::create_directories(folder_of(copy.first), refused);
+      return write_file(copy.first, {copy.second}, diagnostics_);
+    });
+  }
+
+ private:
+  bool add(const std::string& folder, const std::string& name) {
+    const auto from = confine(folder, name);
     const auto to = confine(to_folder_, name);
-    if (from && from == to) return true;
+    if (from && from == to) return stays(name, *to);
     if (!from || !to) return skip(name, "leaves the folder");
     if (!file_exists(*from)) return skip(name, "is not there, or is no file");
     auto bytes = Bytes::open(*from, kLargestCopy, diagnostics_);
     if (!bytes) return false;
     if (to == out_) return clash(name, "has the name of the output");
-    if (!file_exists(*to)) {
-      list_.push_back({*to, *std::move(bytes)});
-      return true;
-    }
+    const auto [known, is_new] = list_.emplace(*to, *bytes);
+    if (!is_new)
+      return same_bytes(known->second, *bytes, diagnostics_) ||
+             clash(name, "has the name of another file that is copied beside the output");
+    if (!file_exists(*to)) return true;
     const auto there = Bytes::open(*to, kLargestCopy, diagnostics_);
     if (!there) return false;
+    list_.erase(known);
     return same_bytes(*there, *bytes, diagnostics_) ||
            clash(name, "is another file beside the output");
   }
 
-  bool write() {
-    return std::all_of(list_.begin(), list_.end(), [&](const Copy& copy) {
-      std::error_code refused;  // write_file reports that there is no folder
-      std::filesystem::create_directories(folder_of(copy.to), refused);
-      return write_file(copy.to, {copy.bytes}, diagnostics_);
-    });
+  /// The file lies on its place, where no other may go.
+  bool stays(const std::string& name, const std::string& to) {
+    return list_.count(to) == 0 ||
+           clash(name, "has the name of another file that is copied beside the output");
   }
 
- private:
   static std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
   bool skip(const std::string& name, const char* why) {
@@ -78,11 +86,11 @@ class Copies {
     return false;
   }
 
-  std::string from_folder_, to_folder_;
+  std::string to_folder_;
   std::optional<std::string> out_;
   Place place_;
   Diagnostics& diagnostics_;
-  std::vector<Copy> list_;
+  std::map<std::string, Bytes> list_;  ///< by the path that they go to
 };
 
 /// A file that is written over itself must still be the one that was read.
@@ -103,12 +111,12 @@ bool check_output_name(const std::string& out, Diagnostics& diagnostics) {
 }
 
 bool write_output(gltf::Patch& patch, const gltf::File& file, const std::string& out,
-                  std::uint64_t& bytes, Diagnostics& diagnostics) {
+                  std::uint64_t& bytes, Diagnostics& diagnostics, const std::vector<Beside>& more) {
   const auto output = patch.finish(!ends_with(out, ".gltf"), diagnostics);
   if (!output) return false;
-  Copies copies(file.path, out, diagnostics);
-  bool good = true;
-  for (const std::string& name : output->copies) good = copies.add(name) && good;
+  Copies copies(out, diagnostics);
+  bool good = copies.add({file.path, output->copies});
+  for (const Beside& beside : more) good = copies.add(beside) && good;
   if (!good || !copies.write()) return false;
   for (const gltf::ExtraFile& extra : output->extra_files) {
     if (!write_file(join_path(folder_of(out), extra.name), {extra.bytes}, diagnostics))

@@ -10,10 +10,12 @@
 #include "catalog/codes.h"
 #include "eval/codes.h"
 #include "gltf/codes.h"
+#include "gltf/merge_codes.h"
 #include "gltf/rig_codes.h"
 #include "modules/codes.h"
 #include "pipeline/batch_codes.h"
 #include "pipeline/codes.h"
+#include "pipeline/merge_codes.h"
 #include "pipeline/reference.h"
 #include "pipeline/update_codes.h"
 #include "processor/codes.h"
@@ -47,10 +49,12 @@ std::vector<const Code*> all_codes() {
   add(eval::codes::kEvalCodes, codes);
   add(bake::codes::kBakeCodes, codes);
   add(gltf::codes::kGltfCodes, codes);
+  add(gltf::codes::kMergeCodes, codes);
   add(gltf::codes::kRigCodes, codes);
   add(pipeline::codes::kPipelineCodes, codes);
   add(pipeline::codes::kUpdateCodes, codes);
   add(pipeline::codes::kBatchCodes, codes);
+  add(pipeline::codes::kMergeFileCodes, codes);
   std::sort(codes.begin(), codes.end(),
             [](const Code* a, const Code* b) { return a->number < b->number; });
   return codes;

@@ -19,6 +19,8 @@ namespace {
 
 constexpr const char* kNameMessage =
     "a name has letters, digits, `_` and `-` and does not start with a digit or `-`";
+constexpr std::string_view kUidPattern = "[0-9a-fA-F]{16}";
+constexpr const char* kUidMessage = "16 hexadecimal digits are needed";
 constexpr const char* kConditionPattern =
     R"(\s*(not\s+$|$(\s+(==|!=)\s+\S+|\s+(<|<=|>|>=)\s+[-+.0-9eE]+)?)\s*)";
 
@@ -272,11 +274,15 @@ void FormatSchema::simple_form(const Key& key) {
       write_types(w_, {"string"});
       return write_pattern(w_, condition_pattern(), "write `$name`, `not $name` or `$name >= 3`");
     case Form::holders:
-      return write_one_or_list(w_, fmt::format("{0}/{0}", kNamePattern),
+      return write_one_or_list(w_, fmt::format("({0}|{1})/{0}", kNamePattern, kUidPattern),
                                "write JOINT/COMMAND, like elbow/main");
     case Form::uid:
-      write_types(w_, {"string", "number"});
-      return write_pattern(w_, "[0-9a-fA-F]{16}", "16 hexadecimal digits are needed");
+      write_types(w_, {"string", "number", "array"});
+      write_pattern(w_, kUidPattern, kUidMessage);
+      return object("items", [&] {
+        write_types(w_, {"string", "number"});
+        write_pattern(w_, kUidPattern, kUidMessage);
+      });
     case Form::count:
       write_types(w_, {"integer", "string"});
       write_limits(w_, key.rule);

@@ -80,6 +80,9 @@ struct TemplateReference {
   int version = 0;
   std::string file;    ///< as written by the user or a part's reference, never absolute
   std::string digest;  ///< 16 hex digits of the text's XXH3-64
+  /// Of a rig that others were joined to: not a part, but the main template of one of these; its
+  /// parts follow. The first is the main one anyway.
+  bool main = false;
 };
 
 struct NamedShape {
@@ -102,7 +105,7 @@ struct TaggedSkeleton {
   std::string global;
   std::vector<TaggedJoint> joints;
   std::vector<FeatureDeclaration> features;
-  std::vector<TemplateReference> templates;  ///< the main one first
+  std::vector<TemplateReference> templates;  ///< the main one first, then its parts
   std::vector<std::pair<std::string, int>> module_pins;
   std::vector<NamedShape> shapes;  ///< that templates bring
   Character character;

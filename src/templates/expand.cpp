@@ -132,7 +132,7 @@ void Expander::add_joint(int use, std::size_t index) {
   tagged.ids.local = final_group(use, source.ids.local);
   if (tagged.ids.global.empty()) tagged.ids.global = main_.global;
   tagged.optional = source.optional;
-  tagged.mirror.mirrored = owner.mirrored;
+  tagged.mirror.mirrored = owner.mirrored != source.mirrored;
   tagged.template_index = owner.template_index;
   tagged.span = source.span;
   add_tags(joint);

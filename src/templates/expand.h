@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "templates/library.h"
@@ -43,6 +44,14 @@ struct Expanded {
 
 std::optional<Expanded> expand(const Template& main, Library& library,
                                const catalog::Catalogue& catalogue, Diagnostics& diagnostics);
+
+/// The uid of a joint that has none written: from the template's name, the part's path (empty in
+/// the main template) and the joint's name.
+std::uint64_t uid_of(const std::string& template_name, const std::string& path,
+                     const std::string& joint);
+
+/// `elbow_l` for `elbow_r`, `LeftArm` is not understood; empty where no word names a side.
+std::string other_side(std::string_view name);
 
 /// The template's own skeleton, in its own proportions.
 std::optional<tags::TaggedSkeleton> place(const Expanded& expanded, Diagnostics& diagnostics);

@@ -23,16 +23,6 @@ std::vector<std::string> with_earlier(const std::vector<std::string>& was,
   return names;
 }
 
-std::uint64_t uid_of(const std::string& template_name, const std::string& path,
-                     const std::string& joint) {
-  std::string bytes = template_name;
-  bytes.push_back('\0');
-  bytes += path;
-  bytes.push_back('\0');
-  bytes += joint;
-  return hash64(bytes);
-}
-
 /// An explicit uid as it stands, or, in a part, hashed with the part's path: the part may be used
 /// twice.
 std::uint64_t uid_of(std::uint64_t written, const std::string& path) {
@@ -55,6 +45,16 @@ void add_key(tags::TaggedJoint& joint, std::uint64_t uid, bool first) {
 }
 
 }  // namespace
+
+std::uint64_t uid_of(const std::string& template_name, const std::string& path,
+                     const std::string& joint) {
+  std::string bytes = template_name;
+  bytes.push_back('\0');
+  bytes += path;
+  bytes.push_back('\0');
+  bytes += joint;
+  return hash64(bytes);
+}
 
 std::string Expander::path(const Use& use) const {
   if (!use.part) return {};
@@ -89,6 +89,8 @@ void Expander::assign_keys() {
     };
     if (source.uid)
       for (const std::string& own_path : own_paths) add(uid_of(*source.uid, own_path));
+    for (const std::uint64_t earlier : source.earlier_uids)
+      for (const std::string& own_path : own_paths) add(uid_of(earlier, own_path));
     const auto names = source.uid ? source.was : with_earlier(source.was, source.name);
     for (const std::string& template_name : template_names)
       for (const std::string& own_path : own_paths)
@@ -103,14 +105,17 @@ void Expander::assign_keys() {
   }
 }
 
-/// `joint/command` as `<joint key>/command`. The joint may be gone from the template by now.
+/// `joint/command` as `<joint key>/command`. The joint may be gone from the template by now; one
+/// that no name leads to is written by its uid.
 std::string Expander::earlier_holder(const RawJoint& joint, const std::string& was) const {
   const std::size_t slash = was.find('/');
   const std::string name = was.substr(0, slash);
   const Use& use = uses_[static_cast<std::size_t>(joint.use)];
   const std::string path_then = earlier_paths(use).front();
   const std::string template_then = main_.was.empty() ? main_.name : main_.was.front();
-  std::uint64_t uid = uid_of(template_then, path_then, name);
+  const auto written = parse_hex16(name);
+  std::uint64_t uid =
+      written ? uid_of(*written, path_then) : uid_of(template_then, path_then, name);
   for (const Joint& candidate : use.source->joints) {
     const bool same =
         candidate.name == name ||
@@ -173,16 +178,31 @@ void Expander::pair_sides() {
     pair_up(true);
     pair_up(false);
   }
+  pair_written();
   const auto& names = uses_.front().handles.names;
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     ExpandedJoint& joint = joints_[i].result;
-    if (joint.opposite >= 0) continue;
+    if (joint.opposite >= 0 || joints_[i].source->opposite) continue;
     const auto found = names.find(other_side(joint.tagged.name));
     if (found == names.end() || found->second < 0) continue;
+    const RawJoint& raw = joints_[static_cast<std::size_t>(found->second)];
     ExpandedJoint& other = joints_[static_cast<std::size_t>(found->second)].result;
-    if (other.opposite >= 0 || found->second == static_cast<int>(i)) continue;
+    if (raw.source->opposite || other.opposite >= 0 || found->second == static_cast<int>(i))
+      continue;
     joint.opposite = found->second;
     other.opposite = static_cast<int>(i);
+  }
+}
+
+/// What joints say by `opposite:`, unless a mirrored use of their part says more.
+void Expander::pair_written() {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    RawJoint& joint = joints_[i];
+    const auto& opposite = joint.source->opposite;
+    if (!opposite || opposite->empty() || joint.parent == kAbsent) continue;
+    const int other = resolve(joint.use, *opposite, joint.source->opposite_span, "opposite");
+    if (joint.result.opposite < 0 && other >= 0 && other != static_cast<int>(i))
+      joint.result.opposite = other;
   }
 }
 

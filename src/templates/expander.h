@@ -99,6 +99,7 @@ class Expander {
   std::string earlier_holder(const RawJoint& joint, const std::string& was) const;
   void pair_sides();
   void pair_uses(int a, int b);
+  void pair_written();
 
   // expand.cpp: the result
   std::vector<int> order() const;
@@ -117,8 +118,5 @@ class Expander {
   /// Tags that were reported: a part that is used twice has its mistakes once.
   std::set<std::pair<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>>> undeclared_;
 };
-
-/// `elbow_l` for `elbow_r`, `LeftArm` is not understood; empty where no word names a side.
-std::string other_side(std::string_view name);
 
 }  // namespace rigc::templates

@@ -131,7 +131,16 @@ const Section& joint_format() {
         "the nearest joint that is there."},
        {"helper", Form::boolean, "Not a bone: rigc makes it where a model lacks it."},
        {"was", Form::names, "Earlier names, oldest first: animation survives a rename."},
-       {"uid", Form::uid, "Identity, 16 hexadecimal digits, if it shall not come from the name."},
+       {"uid", Form::uid,
+        "Identity, 16 hexadecimal digits, if it shall not come from the name; a list where it had "
+        "others before, the one that counts first."},
+       {"mirrored", Form::boolean,
+        "Its frame is one of the mirrored side, as in a part with `mirror:` (default: false)."},
+       {"opposite",
+        Form::name,
+        "The joint on the other side, where the names do not say it by `_l` and `_r`; without a "
+        "value: none.",
+        {.null = true}},
        {"if", Form::condition, "The joint and all below it are there only then."},
        {"tags", Form::tags, "Commands and features, run top to bottom.", {.null = true}}},
       {{"at", "translate"}, {"rotate", "quat", "orient"}}};
@@ -174,8 +183,29 @@ const Section& chain_format() {
                                  {.required = true, .min = 1, .max = kMostInChain}},
                                 {"to",
                                  Form::numbers,
-                                 "Place of the last joint in model space.",
-                                 {.required = true, .count = 3}}}};
+                                 "Place of the last joint in model space: they stand in a line.",
+                                 {.count = 3}},
+                                {"steps",
+                                 Form::list,
+                                 "Places of the joints after the first, each in the space of the "
+                                 "one before, instead of `to`.",
+                                 {.section = &step_format()}}},
+                               {{"to", "steps"}}};
+  return kFormat;
+}
+
+const Section& step_format() {
+  static const Section kFormat{
+      "step",
+      "a step of a chain",
+      {{"translate", Form::numbers, "From the joint before, in its space.", {.count = 3}},
+       {"rotate", Form::numbers, "Degrees, X, then Y, then Z.", {.count = 3}},
+       {"quat", Form::numbers, "Orientation: `[x, y, z, w]`.", {.count = 4}},
+       {"scale",
+        Form::numbers,
+        "Three numbers above 0; leave it out.",
+        {.above = kSmallestScale, .count = 3}}},
+      {{"rotate", "quat"}}};
   return kFormat;
 }
 
@@ -193,7 +223,8 @@ const Section& command_format() {
         {.words = {"build", "connect", "finish", "optimize"}}},
        {"on", Form::boolean, "Off: written, but not run."},
        {"with", Form::arguments, "The module's parameters.", {.null = true}},
-       {"was", Form::holders, "JOINT/ID that this command's nodes had before, oldest first."},
+       {"was", Form::holders,
+        "JOINT/ID that this command's nodes had before, oldest first; a joint also by its uid."},
        {"if", Form::condition, "The command is there only then."}}};
   return kFormat;
 }

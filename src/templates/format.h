@@ -17,6 +17,7 @@ const yaml::Section& feature_declaration_format();  ///< of the catalogue `featu
 const yaml::Section& joint_format();
 const yaml::Section& orient_format();
 const yaml::Section& chain_format();
+const yaml::Section& step_format();
 const yaml::Section& command_format();
 const yaml::Section& feature_format();  ///< of a tag
 const yaml::Section& part_format();

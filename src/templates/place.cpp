@@ -145,7 +145,8 @@ Affine Placer::view(int instance_index, std::size_t index) const {
 /// Where `orient` of a joint points to, in the space of its instance.
 std::optional<Vec3> Placer::target(std::size_t index) const {
   const ExpandedJoint& joint = expanded_.joints[index];
-  if (joint.toward < 0 && joint.chain) return joint.chain->to;
+  const bool to_end = joint.chain && joint.chain->steps.empty();
+  if (joint.toward < 0 && to_end) return joint.chain->to;
   const int at = joint.toward >= 0 ? joint.toward : first_child_[index];
   if (at < 0) return std::nullopt;
   const ExpandedJoint& other = expanded_.joints[static_cast<std::size_t>(at)];
@@ -251,7 +252,10 @@ void Placer::place_joint(std::size_t index) {
   for (int i = 1; i < count; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(count - 1);
     math::Trs step;
-    step.translation = inverse(own) * lerp(first, joint.chain->to, share);
+    if (joint.chain->steps.empty())
+      step.translation = inverse(own) * lerp(first, joint.chain->to, share);
+    else
+      step = joint.chain->steps[static_cast<std::size_t>(i) - 1];
     own = own * compose(step);
     main = to_main(joint.instance, own);
     above = static_cast<int>(out_.joints.size()) - 1;

@@ -16,13 +16,36 @@ namespace {
 
 using Handles = std::unordered_map<std::string, std::size_t>;
 
+constexpr std::size_t kMostUids = 64;
+
 void read_uid(Reader& reader, const yaml::Node& node, Joint& joint) {
   const auto uid = node.is_scalar() ? parse_hex16(node.text) : std::nullopt;
-  if (uid && *uid != 0)
-    joint.uid = uid;
-  else
+  if (!uid || *uid == 0)
     reader.error(codes::kBadUid, node.span, "uid: 16 hexadecimal digits are needed",
                  "without `uid:` it is made from the name");
+  else if (!joint.uid)
+    joint.uid = uid;
+  else
+    joint.earlier_uids.push_back(*uid);
+}
+
+/// One uid, or a list with the one that counts first.
+void read_uids(Reader& reader, const yaml::Node& node, Joint& joint) {
+  if (!node.is_sequence() || node.items.empty()) return read_uid(reader, node, joint);
+  if (!reader.at_most(node, kMostUids, "uid")) return;
+  for (const yaml::Node& item : node.items) read_uid(reader, item, joint);
+}
+
+/// `opposite: NAME`, or without a value: none, whatever the names say.
+void read_sides(Reader& reader, const yaml::Node& node, Joint& joint) {
+  if (const yaml::Node* flag = node.find("mirrored"))
+    joint.mirrored = yaml::as_bool(*flag, "mirrored", reader.diagnostics).value_or(false);
+  const yaml::Node* opposite = node.find("opposite");
+  if (!opposite) return;
+  joint.opposite_span = opposite->span;
+  joint.opposite = opposite->is_null()
+                       ? std::string()
+                       : yaml::as_name(*opposite, "opposite", reader.diagnostics).value_or("");
 }
 
 void read_identifiers(Reader& reader, const yaml::Node& node, Joint& joint) {
@@ -54,7 +77,8 @@ void read_joint(Reader& reader, const yaml::Node& node) {
   if (const yaml::Node* flag = node.find("helper"))
     joint.helper = yaml::as_bool(*flag, "helper", reader.diagnostics).value_or(false);
   if (const yaml::Node* was = node.find("was")) joint.was = reader.names(*was, "was");
-  if (const yaml::Node* uid = node.find("uid")) read_uid(reader, *uid, joint);
+  if (const yaml::Node* uid = node.find("uid")) read_uids(reader, *uid, joint);
+  read_sides(reader, node, joint);
   if (const yaml::Node* condition = node.find("if")) joint.condition = reader.condition(*condition);
   if (const yaml::Node* tags = node.find("tags")) read_tags(reader, *tags, joint);
   reader.out.joints.push_back(std::move(joint));

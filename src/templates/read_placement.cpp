@@ -3,6 +3,8 @@
 // Test: tests/templates/read_test.cpp
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/text.h"
 #include "templates/arguments.h"
 #include "templates/codes.h"
@@ -30,7 +32,7 @@ std::optional<math::Vec3> read_axis(Reader& reader, const yaml::Node& node, std:
   return std::nullopt;
 }
 
-void read_orient(Reader& reader, const yaml::Node& node, Joint& joint) {
+void read_orient(Reader& reader, const yaml::Node& node, Placement& placement) {
   if (!yaml::check_section(node, orient_format(), reader.diagnostics)) return;
   Orient orient;
   orient.span = node.span;
@@ -51,7 +53,7 @@ void read_orient(Reader& reader, const yaml::Node& node, Joint& joint) {
   }
   if (const yaml::Node* toward = node.find("toward"))
     orient.toward = yaml::as_name(*toward, "toward", reader.diagnostics).value_or("");
-  joint.placement.orient = orient;
+  placement.orient = orient;
 }
 
 std::optional<math::Quat> read_quaternion(Reader& reader, const yaml::Node& node) {
@@ -63,10 +65,11 @@ std::optional<math::Quat> read_quaternion(Reader& reader, const yaml::Node& node
                  "[0, 0, 0, 1] is no rotation");
     return std::nullopt;
   }
-  return normalised(q);
+  // One that is as long as rounding allows stays as written: what rigc writes reads back the same.
+  return std::abs(dot(q, q) - 1) < 1e-14 ? q : normalised(q);
 }
 
-void read_orientation(Reader& reader, const yaml::Node& node, Joint& joint) {
+void read_orientation(Reader& reader, const yaml::Node& node, Placement& placement) {
   const yaml::Node::Entry* first = nullptr;
   for (const char* key : {"rotate", "quat", "orient"}) {
     const yaml::Node::Entry* entry = node.find_entry(key);
@@ -80,11 +83,11 @@ void read_orientation(Reader& reader, const yaml::Node& node, Joint& joint) {
     first = entry;
     const std::string_view word = key;
     if (word == "rotate")
-      joint.placement.rotation = reader.euler(entry->value, key).value_or(math::Quat{});
+      placement.rotation = reader.euler(entry->value, key).value_or(math::Quat{});
     else if (word == "quat")
-      joint.placement.rotation = read_quaternion(reader, entry->value).value_or(math::Quat{});
+      placement.rotation = read_quaternion(reader, entry->value).value_or(math::Quat{});
     else
-      read_orient(reader, entry->value, joint);
+      read_orient(reader, entry->value, placement);
   }
 }
 
@@ -102,11 +105,11 @@ void read_position(Reader& reader, const yaml::Node& node, Joint& joint) {
   }
 }
 
-void read_scale(Reader& reader, const yaml::Node& node, Joint& joint) {
+void read_scale(Reader& reader, const yaml::Node& node, Placement& placement) {
   const auto scale = reader.vector(node, "scale");
   if (!scale) return;
   if (scale->x > kSmallestScale && scale->y > kSmallestScale && scale->z > kSmallestScale)
-    joint.placement.scale = *scale;
+    placement.scale = *scale;
   else
     reader.error(codes::kNotAllowed, node.span, "scale: every number must be above 0",
                  "mirrored parts are written `mirror: x`");
@@ -135,13 +138,45 @@ std::optional<Count> read_count(Reader& reader, const yaml::Node& node) {
   return count;
 }
 
+math::Trs read_step(Reader& reader, const yaml::Node& node) {
+  Placement step;
+  if (!yaml::check_section(node, step_format(), reader.diagnostics)) return {};
+  if (const yaml::Node* translate = node.find("translate"))
+    step.position = reader.metres(*translate, "translate").value_or(math::Vec3{});
+  read_orientation(reader, node, step);
+  if (const yaml::Node* scale = node.find("scale")) read_scale(reader, *scale, step);
+  return {step.position, step.rotation, step.scale};
+}
+
+void read_steps(Reader& reader, const yaml::Node& node, Chain& chain) {
+  if (!node.is_sequence()) {
+    reader.error(codes::kMissingKey, node.span, "`steps` is a list", "write `- translate: ...`");
+    return;
+  }
+  const bool fits = chain.count.parameter.empty() &&
+                    node.items.size() + 1 == static_cast<std::size_t>(chain.count.value);
+  if (!fits) {
+    reader.error(codes::kNotAllowed, node.span,
+                 fmt::format("steps: {} do not make a chain of `count`", node.items.size()),
+                 "there is one step for every joint but the first");
+    return;
+  }
+  for (const yaml::Node& item : node.items) chain.steps.push_back(read_step(reader, item));
+}
+
 void read_chain(Reader& reader, const yaml::Node& node, Joint& joint) {
   if (!yaml::check_section(node, chain_format(), reader.diagnostics)) return;
   Chain chain;
   chain.span = node.span;
   if (const yaml::Node* count = reader.required(node, "count", "a chain"))
     if (const auto number = read_count(reader, *count)) chain.count = *number;
-  if (const yaml::Node* to = reader.required(node, "to", "a chain"))
+  const yaml::Node::Entry* steps = node.find_entry("steps");
+  if (steps && node.find("to"))
+    reader.error(codes::kPlacementTwice, steps->key_span, "the chain has both `to` and `steps`",
+                 "keep one of them");
+  else if (steps)
+    read_steps(reader, steps->value, chain);
+  else if (const yaml::Node* to = reader.required(node, "to", "a chain"))
     if (const auto position = reader.metres(*to, "to")) chain.to = *position;
   joint.chain = chain;
 }
@@ -150,8 +185,8 @@ void read_chain(Reader& reader, const yaml::Node& node, Joint& joint) {
 
 void read_placement(Reader& reader, const yaml::Node& node, Joint& joint) {
   read_position(reader, node, joint);
-  read_orientation(reader, node, joint);
-  if (const yaml::Node* scale = node.find("scale")) read_scale(reader, *scale, joint);
+  read_orientation(reader, node, joint.placement);
+  if (const yaml::Node* scale = node.find("scale")) read_scale(reader, *scale, joint.placement);
   if (const yaml::Node* chain = node.find("chain")) read_chain(reader, *chain, joint);
 }
 

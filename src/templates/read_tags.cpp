@@ -33,7 +33,8 @@ void read_command_was(Reader& reader, const yaml::Node& node, tags::CommandTag& 
     const auto text = yaml::as_text(item, "was", reader.diagnostics);
     if (!text) return;
     const auto parts = split(*text, '/');
-    if (parts.size() == 2 && is_name(parts[0]) && is_name(parts[1]))
+    const bool joint = is_name(parts[0]) || parse_hex16(parts[0]);
+    if (parts.size() == 2 && joint && is_name(parts[1]))
       tag.was.push_back(*text);
     else
       reader.error(codes::kNotAllowed, item.span,

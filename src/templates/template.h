@@ -63,10 +63,12 @@ struct Count {
 };
 
 /// `chain: {count: 3, to: [0, 1.4, 0]}`: joints in a straight line, the first at the joint's own
-/// place.
+/// place; or `chain: {count: 2, steps: [{translate: [0, 0.2, 0]}]}`: each placed below the one
+/// before.
 struct Chain {
   Count count;
-  math::Vec3 to;  ///< of the last joint, metres, model space
+  math::Vec3 to;                 ///< of the last joint, metres, model space; unless there are steps
+  std::vector<math::Trs> steps;  ///< of the joints after the first, metres: none or count - 1
   Span span;
 };
 
@@ -91,6 +93,11 @@ struct Joint {
   bool helper = false;    ///< not a bone: made by rigc where a fitted model has no such joint
   std::vector<std::string> was;  ///< earlier names, oldest first
   std::optional<std::uint64_t> uid;
+  std::vector<std::uint64_t> earlier_uids;  ///< written behind `uid`
+  bool mirrored = false;  ///< its frame is one of the mirrored side, as in a part with `mirror:`
+  /// The joint on the other side (a name or label; empty: none), where names do not say it.
+  std::optional<std::string> opposite;
+  Span opposite_span;
   std::optional<Condition> condition;
   std::vector<Feature> features;
   std::vector<Command> commands;  ///< top to bottom

@@ -51,7 +51,8 @@ Destination Remap::find(std::size_t index, const Property& property) const {
   const Source& source = sources_[index];
   Destination out;
   const bool attribute = property.path == anim::Path::attribute;
-  if (property.path == anim::Path::weights ||
+  // Meshes have no transform that means anything to the rig.
+  if (property.path == anim::Path::weights || source.kind == scene::Kind::mesh ||
       (attribute && !is_attribute(source, property.attribute))) {
     out.kind = Destination::Kind::foreign;
     return out;
@@ -72,7 +73,7 @@ Destination Remap::find(std::size_t index, const Property& property) const {
   out.attribute = property.attribute;
   const auto changes = options_.changes.find(fresh_[node].module);
   if (changes != options_.changes.end()) {
-    for (const AttributeChange& change : changes->second) {
+    for (const catalog::AttributeChange& change : changes->second) {
       if (change.was != out.attribute) continue;
       out.attribute = change.name;
       out.offset = out.offset * change.factor + change.offset;

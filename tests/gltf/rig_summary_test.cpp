@@ -41,7 +41,8 @@ constexpr const char* kTwoRigs =
 "nodes":[{"name":"[\""},[[]]],"templates":[{"name":"lamp","version":7,"digest":"00000000000000ff",
 "file":"lamp.yaml"},{"name":"arm","version":2,"file":"parts/arm"}],"settings":{"rest":"nodes"},
 "modules":[{"name":"control","version":1}],"orphans":[{"node":4,"identity":"3:1:1:main:control:0",
-"name":"wrist_ctl","local":"arm_l","label":"wrist","attributes":{"roll":1.5,"bend":2}}]},
+"name":"wrist_ctl","local":"arm_l","label":"wrist","attributes":[{"name":"roll","flavour":"number"},
+{"name":"bend","flavour":"number"}]}]},
 {"id":1,"name":"x","global":"y","settings":{}}],"version":1}},"asset":{"version":"2.0"}} )";
 
 }  // namespace
@@ -175,8 +176,8 @@ TEST_CASE("gltf rig_summary: what is wrong is reported at its place in the file"
   CHECK(wrong("],\"version\":1}", "],\"version\":2}") == "700 /extensions/RIGC_rig/version");
   CHECK(wrong("{\"id\":1,\"name\":\"x\",\"global\":\"y\",\"settings\":{}}", "7") ==
         "701 " + rigs + "/1");
-  CHECK(wrong("\"attributes\":{\"roll\":1.5,\"bend\":2}", "\"attributes\":0") ==
-        "701 " + rigs + "/0/orphans/0/attributes");
+  CHECK(wrong("{\"name\":\"bend\",\"flavour\":\"number\"}", "0") ==
+        "701 " + rigs + "/0/orphans/0/attributes/1");
   CHECK(wrong("\"id\":1,", "\"id\":1,\"id\":1,") == "64 ");
   Diagnostics diagnostics;
   CHECK_FALSE(read_rig_summaries("/nowhere.glb", diagnostics));
