@@ -75,6 +75,9 @@ class Rebuild final : public Command {
     if (!rebuilt) return result;
     result.outcome = FileResult::Outcome::changed;
     result.bytes = rebuilt->bytes;
+    result.summary = request_.plan      ? "would be changed"
+                     : request_.unbuild ? "taken apart"
+                                        : "built again";
     json::Writer w;
     w.begin_object().key("rigs").begin_array();
     for (const pipeline::RigReport& report : rebuilt->rigs) {

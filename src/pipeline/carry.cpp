@@ -219,6 +219,7 @@ void Carrier::move_channels() {
       const Property property = property_of(channel);
       if (is_foreign(source) || move.destination.kind == Destination::Kind::foreign) {
         move.stays = true;
+        report_.baked_channels += channel.baked ? 1 : 0;
         if (!source_node_taken_[source] && !is_foreign(source)) orphan_of(source);
         moves_.push_back(std::move(move));
         continue;
@@ -235,6 +236,7 @@ void Carrier::move_channels() {
         else if (curve.values != channel.curve.values)
           move.curve = std::move(curve);
       }
+      report_.baked_channels += channel.baked ? 1 : 0;
       if (!channel.baked) count(source, property, move.destination, true, converted);
       moves_.push_back(std::move(move));
     }

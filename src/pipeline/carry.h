@@ -36,6 +36,7 @@ struct CarryReport {
   std::vector<std::string> inexact;      ///< properties whose values cannot be said exactly
   std::size_t orphans = 0;               ///< properties that remain without a node
   std::size_t new_orphans = 0;           ///< that had one before
+  std::size_t baked_channels = 0;        ///< on joints, which a bake made for the old rig
 };
 
 /// Compares in one clip.

@@ -68,7 +68,7 @@ void write_commands(json::Writer& w, const Rig& rig) {
   w.end_array();
 }
 
-void write_rig(json::Writer& w, const Rig& rig) {
+void write_rig(json::Writer& w, const Rig& rig, const gltf::ClipFile& clips) {
   w.begin_object().member("id", rig.id).member("global", rig.skeleton.global);
   const bool known = !rig.skeleton.templates.empty();
   w.key("template")
@@ -84,14 +84,14 @@ void write_rig(json::Writer& w, const Rig& rig) {
   write_layers(w, rig);
   write_sets(w, rig);
   write_commands(w, rig);
-  w.key("orphans").begin_array().end_array();
+  write_orphans(w, rig, clips);
   w.end_object();
 }
 
 std::string as_json(const std::vector<Rig>& rigs, const gltf::ClipFile& clips) {
   json::Writer w(2);
   w.begin_object().key("rigs").begin_array();
-  for (const Rig& rig : rigs) write_rig(w, rig);
+  for (const Rig& rig : rigs) write_rig(w, rig, clips);
   w.end_array().key("clips").begin_array();
   for (std::size_t i = 0; i < clips.clips.size(); ++i) {
     const anim::Clip& clip = clips.clips[i];
@@ -127,6 +127,7 @@ std::string as_text(const std::vector<Rig>& rigs, const gltf::ClipFile& clips) {
                          feature.on ? "on" : "off");
     }
     out += groups_text(rig);
+    out += orphans_text(rig, clips);
   }
   if (rigs.empty()) out += "no rig\n";
   for (std::size_t i = 0; i < clips.clips.size(); ++i) {

@@ -89,6 +89,13 @@ bool lock_file(const FileWork& work, bool writes, std::optional<FileLock>& lock,
   return lock.has_value();
 }
 
+/// Writes what a work made of a file.
+bool write_work(gltf::Patch& patch, const gltf::File& file, const FileWork& work,
+                std::uint64_t& bytes, Diagnostics& diagnostics) {
+  return keep_original(work, file.whole, diagnostics) &&
+         write_output(patch, file, work.output, bytes, diagnostics);
+}
+
 /// Reads a file with at least one rig.
 struct Opened {
   gltf::File file;
@@ -164,7 +171,7 @@ std::optional<Removed> strip(const std::vector<std::string>& rigs, const FileWor
        {std::pair(&models, gltf::Strip::nothing), std::pair(&characters, gltf::Strip::character)})
     if (!group->empty()) gone.merge(gltf::strip_rigs(patch, opened->file, *group, remains));
   out.channels = gltf::drop_channels(patch, opened->file, gone);
-  if (!write_output(patch, opened->file, work.output, out.bytes, diagnostics)) return std::nullopt;
+  if (!write_work(patch, opened->file, work, out.bytes, diagnostics)) return std::nullopt;
   return out;
 }
 
@@ -196,7 +203,7 @@ std::optional<Removed> prune(const std::vector<std::string>& rigs, const FileWor
   gltf::Patch patch(opened->file);
   if (!gltf::replace_rigs(patch, opened->file, replacements, diagnostics)) return std::nullopt;
   out.channels = gltf::drop_channels(patch, opened->file, gone);
-  if (!write_output(patch, opened->file, work.output, out.bytes, diagnostics)) return std::nullopt;
+  if (!write_work(patch, opened->file, work, out.bytes, diagnostics)) return std::nullopt;
   return out;
 }
 

@@ -149,6 +149,12 @@ bool Recompilation::compile(std::size_t index, NewRig next, const catalog::Catal
   if (options.tolerance_mm &&
       !check_tolerance(file_->path, report, *options.tolerance_mm, diagnostics))
     return false;
+  const Largest largest = largest_difference(report);
+  if (report.carry.baked_channels > 0 && (largest.mm > 0 || largest.degrees > 0))
+    diagnostics.report(codes::kStaleBake, Place(file_->path),
+                       fmt::format("{} channels on joints were baked from the old rig \"{}\"",
+                                   report.carry.baked_channels, printable(report.global)),
+                       "`rigc bake --keep-rig` makes them again");
   compiled_.push_back(std::move(compiled));
   return true;
 }
@@ -166,6 +172,7 @@ bool Recompilation::write(const FileWork& work, std::uint64_t& bytes, Diagnostic
     std::move(own.begin(), own.end(), std::back_inserter(edits));
   }
   gltf::edit_channels(patch, *file_, edits);
+  if (!keep_original(work, file_->whole, diagnostics)) return false;
   return write_output(patch, *file_, work.output, bytes, diagnostics);
 }
 

@@ -11,6 +11,8 @@ namespace rigc::pipeline {
 namespace {
 
 constexpr std::size_t kFew = 8;
+/// Millimetres and degrees that no eye sees and that doubles lose.
+constexpr double kRounding = 1e-6;
 
 std::string plural(std::size_t count, const char* word) {
   const bool many = count != 1;
@@ -35,7 +37,7 @@ void add_names(std::string& text, const std::vector<std::string>& names, const c
 
 void add_property(std::string& text, const CarriedProperty& property) {
   const std::string keys =
-      property.channels > 0 ? plural(property.channels, "channel") : "a value without keys";
+      property.channels > 0 ? plural(property.channels, "channel") : "value without keys";
   if (property.to.empty()) {
     text += fmt::format("    orphan: {} ({})\n", printable(property.from, 120), keys);
     return;
@@ -62,22 +64,57 @@ void add_properties(std::string& text, const RigReport& report, bool verbose) {
     text += fmt::format("    and {} more (--verbose lists them)\n", changed.size() - shown);
 }
 
-void add_differences(std::string& text, const RigReport& report) {
-  std::size_t times = 0, all = 0;
+/// `compared at 40 of 80 times of 2 clips`.
+std::string compared(const RigReport& report) {
+  std::size_t times = 0, all = 0, clips = 0;
   for (const ClipComparison& clip : report.clips) {
+    if (clip.clip.empty() && clip.comparison.all_times == 1) continue;  // as it stands
+    ++clips;
     times += clip.comparison.times;
     all += clip.comparison.all_times;
   }
+  if (clips == 0) return "compared as it stands";
+  const std::string thinned = times < all ? fmt::format("{} of ", times) : "";
+  return fmt::format("compared at {}{} of {}", thinned, plural(all, "time"), plural(clips, "clip"));
+}
+
+void add_differences(std::string& text, const RigReport& report) {
   const Largest largest = largest_difference(report);
-  const std::string thinned = times < all ? fmt::format(" of {}", all) : "";
+  const std::string how = compared(report);
   if (largest.mm == 0 && largest.degrees == 0) {
-    text += fmt::format("    motion: the same, bit for bit, at {}{} times\n", times, thinned);
-    return;
+    text += fmt::format("    motion: the same, bit for bit ({})\n", how);
+  } else if (largest.mm < kRounding && largest.degrees < kRounding) {
+    text += fmt::format("    motion: the same but for rounding ({})\n", how);
+  } else {
+    std::string where;
+    if (!largest.joint.empty()) where = " at " + printable(largest.joint, 60);
+    if (!largest.clip.empty()) where += fmt::format(" in clip \"{}\"", printable(largest.clip, 60));
+    text +=
+        fmt::format("    motion: differs by up to {:.4g} mm{}, and by up to {:.4g} degrees ({})\n",
+                    largest.mm, where, largest.degrees, how);
   }
-  text +=
-      fmt::format("    motion: differs by at most {:.4g} mm and {:.4g} degrees at {}{} times{}\n",
-                  largest.mm, largest.degrees, times, thinned,
-                  largest.joint.empty() ? "" : fmt::format(" ({})", printable(largest.joint, 60)));
+}
+
+/// What became of the template: `biped 1 -> 2`.
+std::string versions(const RigReport& report) {
+  const std::string before = printable(report.template_before, 60);
+  const std::string now = printable(report.template_name, 60);
+  if (before != now)
+    return fmt::format("{} {} -> {} {}", before, report.version_before, now, report.version);
+  if (report.version_before != report.version)
+    return fmt::format("{} {} -> {}", before, report.version_before, report.version);
+  return fmt::format("{} {}{}", before, report.version,
+                     report.why.empty() ? "" : " (" + report.why + ")");
+}
+
+/// Keys and values that nothing happened to.
+std::string kept(const CarryReport& carry) {
+  if (carry.kept_channels + carry.kept_values == 0)
+    return carry.changed.empty() ? "nothing was keyed or set" : "";
+  std::vector<std::string> parts;
+  if (carry.kept_channels > 0) parts.push_back(plural(carry.kept_channels, "channel"));
+  if (carry.kept_values > 0) parts.push_back(plural(carry.kept_values, "value") + " without keys");
+  return join(parts, " and ") + " kept as they are";
 }
 
 void write_names(json::Writer& writer, const char* key, const std::vector<std::string>& names) {
@@ -106,12 +143,7 @@ void write_comparison(json::Writer& writer, const ClipComparison& clip) {
 }  // namespace
 
 std::string as_text(const RigReport& report, bool verbose) {
-  const bool other = report.template_name != report.template_before;
-  std::string text =
-      fmt::format("  {}: {} {} -> {}{}{}\n", printable(report.global, 60),
-                  printable(report.template_before, 60), report.version_before,
-                  other ? printable(report.template_name, 60) + " " : "", report.version,
-                  report.why.empty() ? "" : fmt::format(" ({})", report.why));
+  std::string text = fmt::format("  {}: {}\n", printable(report.global, 60), versions(report));
   const CarryReport& carry = report.carry;
   add_names(text, carry.joints_added, "joint", "added", verbose);
   add_names(text, carry.joints_removed, "joint", "removed", verbose);
@@ -119,10 +151,9 @@ std::string as_text(const RigReport& report, bool verbose) {
   add_names(text, carry.controls_added, "control", "added", verbose);
   add_names(text, carry.controls_removed, "control", "removed", verbose);
   add_names(text, carry.controls_moved, "control", "moved", verbose);
-  text += fmt::format("    {} and {} kept as they are\n", plural(carry.kept_channels, "channel"),
-                      plural(carry.kept_values, "value"));
+  if (const std::string same = kept(carry); !same.empty()) text += "    " + same + "\n";
   add_properties(text, report, verbose);
-  add_names(text, carry.inexact, "property", "not exact", verbose);
+  add_names(text, carry.inexact, "property", "cannot be said exactly and stays as it is", verbose);
   add_differences(text, report);
   text.pop_back();
   return text;

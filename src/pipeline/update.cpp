@@ -12,6 +12,7 @@
 #include "pipeline/update_codes.h"
 #include "tags/settings.h"
 #include "templates/expand.h"
+#include "update/skeleton.h"
 
 namespace rigc::pipeline {
 namespace {
@@ -24,6 +25,38 @@ bool same_templates(const std::vector<tags::TemplateReference>& a,
                     [](const tags::TemplateReference& x, const tags::TemplateReference& y) {
                       return x.name == y.name && x.version == y.version && x.digest == y.digest;
                     });
+}
+
+/// What a local group of the old skeleton is called now: a part has another name, and its joints
+/// know. Empty: the group is still there, or its joints are in several.
+std::string new_name(const std::string& group, const TaggedSkeleton& fresh,
+                     const TaggedSkeleton& old, const std::vector<int>& counterparts) {
+  std::string name;
+  for (std::size_t i = 0; i < counterparts.size(); ++i) {
+    const std::string& now = fresh.joints[i].ids.local;
+    if (now == group) return {};
+    if (counterparts[i] < 0 ||
+        old.joints[static_cast<std::size_t>(counterparts[i])].ids.local != group)
+      continue;
+    if (!name.empty() && name != now) return {};
+    name = now;
+  }
+  return name;
+}
+
+/// Settings of the old skeleton as they are said of the new one.
+tags::Settings renamed_settings(tags::Settings settings, const TaggedSkeleton& fresh,
+                                const TaggedSkeleton& old) {
+  if (settings.features.empty() && settings.groups.empty()) return settings;
+  const std::vector<int> counterparts = update::counterparts(fresh, old);
+  const auto rename = [&](std::string& group) {
+    if (group.empty()) return;
+    const std::string now = new_name(group, fresh, old, counterparts);
+    if (!now.empty()) group = now;
+  };
+  for (tags::Settings::Feature& feature : settings.features) rename(feature.group);
+  for (auto& group : settings.groups) rename(group.first);
+  return settings;
 }
 
 /// Settings without those that a skeleton does not have.
@@ -174,7 +207,8 @@ std::optional<NewRig> Updater::next_rig(const Recompilation& file, const gltf::R
                               settings_.take_skeleton, diagnostics);
   if (!skeleton) return std::nullopt;
   NewRig next;
-  next.settings = known_settings(old.settings, *skeleton, report.dropped_settings);
+  next.settings = known_settings(renamed_settings(old.settings, *skeleton, old.skeleton), *skeleton,
+                                 report.dropped_settings);
   for (const std::string& setting : report.dropped_settings)
     diagnostics.report(codes::kSettingGone, Place(file.file().path),
                        fmt::format("the new version has no {}, which rig {} was built with a "
@@ -194,15 +228,18 @@ FileResult Updater::update(const FileWork& work, Diagnostics& diagnostics) const
   }
   const auto summaries = gltf::read_rig_summaries(work.input, diagnostics);
   if (!summaries) return result;
-  bool concerned = false, good = true;
+  bool concerned = false, named = false, good = true;
   for (const gltf::RigSummary& rig : *summaries) {
+    named = named || concerns(rig.global);
     Step step;
     good = find_step(work.input, rig.global, rig.templates, rig.modules, step, diagnostics) && good;
     concerned = concerned || !step.mains.empty();
   }
   if (!good) return result;
   if (!concerned) {
-    result.summary = summaries->empty() ? "has no rig" : "is up to date";
+    result.summary = summaries->empty() ? "has no rig"
+                     : named            ? "is up to date"
+                                        : "has no rig of that name";
     return result;
   }
   Diagnostics reading;
@@ -234,10 +271,11 @@ FileResult Updater::update(const FileWork& work, Diagnostics& diagnostics) const
     if (!built) return result;
   }
   result.outcome = FileResult::Outcome::changed;
+  result.summary = settings_.plan ? "would be updated" : "updated";
   json::Writer writer;
   writer.begin_object().key("rigs").begin_array();
   for (const RigReport& report : reports) {
-    result.summary += (result.summary.empty() ? "" : "\n") + as_text(report, settings_.verbose);
+    result.summary += "\n" + as_text(report, settings_.verbose);
     write_json(writer, report);
   }
   result.json = writer.end_array().end_object().take();

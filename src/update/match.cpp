@@ -55,12 +55,12 @@ class Names {
       Identity identity = now;
       identity.holder = holder;
       identity.command = command;
-      if (own) {
-        identity.owner = holder;
-        out.push_back(identity);
-      }
       for (const JointKey& owner : owners) {
         identity.owner = owner;
+        out.push_back(identity);
+      }
+      if (own && holder != owners.front()) {
+        identity.owner = holder;
         out.push_back(identity);
       }
     }

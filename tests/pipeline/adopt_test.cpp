@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gltf/clips.h"
 #include "pipeline/adopt_helpers.h"
 #include "pipeline/bake_file.h"
+#include "pipeline/build.h"
 #include "support/rig.h"
 
 namespace rigc {
@@ -247,6 +249,36 @@ TEST_CASE("adopt: where nothing was edited the joints move as before") {
   CHECK(adopted(edited, shot.path, out).attributes == 1);
   const double height = rig_of(shot.path).skeleton.character.height;
   CHECK(largest_motion_difference(shot.path, out, "walk") <= 1e-3 * height);
+}
+
+TEST_CASE("adopt: keys on attributes that the other program kept, and only the clips asked for") {
+  const Shot shot = make_shot("pointer");
+  Diagnostics diagnostics;
+  const auto file = gltf::open(shot.path, diagnostics);
+  REQUIRE(file);
+  gltf::Patch patch(*file);
+  anim::Clip walk = clip_of(shot.path, "walk"), run{"run", -1, {}};
+  for (anim::Channel& channel : walk.channels)
+    if (channel.path == Path::attribute) channel.curve.values = {0.75f, 0.25f};
+  run.channels = {*find(walk, shot.body, Path::translation)};
+  gltf::write_clips(patch, *file, {{walk, {}}, {run, {}}});
+  const std::string edited = test::test_out("adopt_pointer_edited.glb");
+  std::uint64_t bytes = 0;
+  REQUIRE(pipeline::write_output(patch, *file, edited, bytes, diagnostics));
+
+  const std::string out = test::test_out("adopt_pointer_out.glb");
+  auto report = adopt(edited, shot.path, out, diagnostics, false, {"run"});
+  REQUIRE(report);
+  REQUIRE(report->clips.size() == 1);
+  CHECK(report->clips[0].fresh);
+  CHECK(clip_of(out, "run").channels.size() == 1);
+  CHECK(value_at(clip_of(out, "walk"), shot.settings, Path::attribute, 1)[0] == 0.5);
+  report = adopt(edited, shot.path, out, diagnostics);
+  REQUIRE(report);
+  REQUIRE(report->clips.size() == 2);
+  CHECK(report->clips[0].changed == 1);
+  CHECK(report->clips[0].same == 3);
+  CHECK(value_at(clip_of(out, "walk"), shot.settings, Path::attribute, 1)[0] == 0.25);
 }
 
 TEST_CASE("adopt: a character that is bound elsewhere as a whole has no edited joints") {

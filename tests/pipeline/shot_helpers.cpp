@@ -39,7 +39,7 @@ class Animator {
       for (const NodeId id : rig.scene.nodes()) {
         if (rig.scene[id].kind != scene::Kind::control) continue;
         for (const Path path : {Path::translation, Path::rotation, Path::scale})
-          if (chance(how_.share * (path == Path::scale ? 0.3 : 1)))
+          if (chance(how_.share * (path == Path::scale ? how_.scale_share : 1)))
             add(clip, rig.nodes[id.index], path, "", rig.skeleton.character.height);
         for (const scene::UserAttribute& attribute : rig.scene[id].user)
           if (attribute.keyable && chance(how_.share))

@@ -37,6 +37,7 @@ struct Animation {
   double share = 0.6;        ///< of the controls' properties that a clip keys
   double value_share = 0.3;  ///< that are set without a key
   std::size_t keys = 6;
+  double scale_share = 0.3;  ///< of the scales among them
 };
 /// Keys controls of all rigs at random, with all interpolations, shared and unshared times, several
 /// clips, values without keys; in place.
