@@ -105,6 +105,7 @@ std::unique_ptr<Updater> Updater::make(const UpdateSettings& settings, Diagnosti
   if (!add_modules(settings.paths, out->catalogue_, diagnostics)) return nullptr;
   out->folders_ = templates::template_folders(settings.paths.templates);
   out->installed_ = std::make_unique<Installed>(out->folders_, out->catalogue_);
+  if (!out->installed_->versions().check_readable(diagnostics)) return nullptr;
   if (!settings.to.empty()) {
     const auto path = out->installed_->versions().resolve(settings.to, diagnostics);
     if (!path) return nullptr;
