@@ -74,12 +74,12 @@ std::string describe(const Identifiers& ids, const std::string& module, const Id
 }
 
 Carrier::Carrier(const gltf::Rig& old, gltf::Rig& fresh, const std::vector<anim::Clip>& clips,
-                 const std::set<int>& animated, const catalog::Catalogue& catalogue,
+                 const std::set<int>& used, const catalog::Catalogue& catalogue,
                  update::Options options)
     : old_(old),
       fresh_(fresh),
       clips_(clips),
-      animated_(animated),
+      used_(used),
       options_(std::move(options)),
       built_(gltf::built_scene(old)),
       sources_(update::sources_of(built_)) {
@@ -132,7 +132,7 @@ void Carrier::run() {
   report_nodes();
   move_channels();
   move_values();
-  keep_animated_nodes();
+  keep_used_nodes();
 }
 
 /// The orphan that holds what a source had and the new rig does not.
@@ -288,11 +288,12 @@ void Carrier::move_values() {
   }
 }
 
-/// Channels that rigc does not understand may drive a node that goes: it stays for them.
-void Carrier::keep_animated_nodes() {
+/// Channels that rigc does not understand may drive a node that goes, and others may have added to
+/// it: it stays for them.
+void Carrier::keep_used_nodes() {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const int node = node_of(i);
-    if (node < 0 || matches_[i] || is_foreign(i) || animated_.count(node) == 0) continue;
+    if (node < 0 || matches_[i] || is_foreign(i) || used_.count(node) == 0) continue;
     orphan_of(i);
   }
 }

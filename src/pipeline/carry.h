@@ -47,9 +47,9 @@ struct ClipComparison {
 class Carrier {
  public:
   /// `fresh` was built for the skeleton of `old`, which was read from the file that has `clips`.
+  /// `used`: nodes of the file that channels drive or that others have added to.
   Carrier(const gltf::Rig& old, gltf::Rig& fresh, const std::vector<anim::Clip>& clips,
-          const std::set<int>& animated, const catalog::Catalogue& catalogue,
-          update::Options options);
+          const std::set<int>& used, const catalog::Catalogue& catalogue, update::Options options);
 
   /// Finds where everything goes: sets values and orphans of `fresh`.
   void run();
@@ -80,7 +80,7 @@ class Carrier {
   void move_value(std::size_t source, const update::Property& property, const scene::Value& value);
   int orphan_of(std::size_t source);
   void hold(std::size_t source, const update::Property& property);
-  void keep_animated_nodes();
+  void keep_used_nodes();
   void count(std::size_t source, const update::Property& property,
              const update::Destination& destination, bool keyed, bool converted);
   void report_nodes();
@@ -89,7 +89,7 @@ class Carrier {
   const gltf::Rig& old_;
   gltf::Rig& fresh_;
   const std::vector<anim::Clip>& clips_;
-  const std::set<int>& animated_;
+  const std::set<int>& used_;
   update::Options options_;
   scene::Scene built_;
   std::vector<update::Source> sources_;
