@@ -209,41 +209,51 @@ void Carrier::count(std::size_t source, const Property& property, const Destinat
 }
 
 void Carrier::move_channels() {
-  for (std::size_t c = 0; c < clips_.size(); ++c) {
-    for (std::size_t i = 0; i < clips_[c].channels.size(); ++i) {
-      const anim::Channel& channel = clips_[c].channels[i];
-      const auto found = by_node_.find(channel.node);
-      if (found == by_node_.end()) continue;
-      const std::size_t source = found->second;
-      Move move{c, i, remap_->find(source, property_of(channel)), -1, false, std::nullopt};
-      const Property property = property_of(channel);
-      if (is_foreign(source) || move.destination.kind == Destination::Kind::foreign) {
-        move.stays = true;
-        if (!source_node_taken_[source] && !is_foreign(source)) orphan_of(source);
-        moves_.push_back(std::move(move));
-        continue;
+  for (const bool of_orphans : {false, true}) {
+    for (std::size_t c = 0; c < clips_.size(); ++c) {
+      for (std::size_t i = 0; i < clips_[c].channels.size(); ++i) {
+        const auto found = by_node_.find(clips_[c].channels[i].node);
+        if (found != by_node_.end() && sources_[found->second].node.valid() != of_orphans)
+          move_channel(c, i, found->second);
       }
-      bool converted = false;
-      if (move.destination.kind == Destination::Kind::none) {
-        hold(source, property);
-        move.orphan = orphan_of(source);
-      } else if (update::changes_values(property, move.destination, remap_->conversion(source))) {
-        anim::Curve curve = channel.curve;
-        converted = update::convert(curve, property, move.destination, remap_->conversion(source));
-        if (!converted)
-          report_.inexact.push_back(describe_source(source) + "@" + name_of(property));
-        else if (curve.values != channel.curve.values)
-          move.curve = std::move(curve);
-      }
-      if (!channel.baked) count(source, property, move.destination, true, converted);
-      moves_.push_back(std::move(move));
     }
   }
 }
 
+void Carrier::move_channel(std::size_t clip, std::size_t index, std::size_t source) {
+  const anim::Channel& channel = clips_[clip].channels[index];
+  const Property property = property_of(channel);
+  Move move{clip, index, remap_->find(source, property), -1, false, std::nullopt};
+  if (is_foreign(source) || move.destination.kind == Destination::Kind::foreign) {
+    move.stays = true;
+    if (!source_node_taken_[source] && !is_foreign(source)) orphan_of(source);
+    moves_.push_back(std::move(move));
+    return;
+  }
+  if (move.destination.kind == Destination::Kind::property &&
+      !keyed_.insert({clip, move.destination.plug}).second)
+    move.destination = {};
+  bool converted = false;
+  if (move.destination.kind == Destination::Kind::none) {
+    hold(source, property);
+    move.orphan = orphan_of(source);
+  } else if (update::changes_values(property, move.destination, remap_->conversion(source))) {
+    anim::Curve curve = channel.curve;
+    converted = update::convert(curve, property, move.destination, remap_->conversion(source));
+    if (!converted)
+      report_.inexact.push_back(describe_source(source) + "@" + name_of(property));
+    else if (curve.values != channel.curve.values)
+      move.curve = std::move(curve);
+  }
+  if (!channel.baked) count(source, property, move.destination, true, converted);
+  moves_.push_back(std::move(move));
+}
+
 void Carrier::move_value(std::size_t source, const Property& property, const scene::Value& value) {
-  const Destination destination = remap_->find(source, property);
+  Destination destination = remap_->find(source, property);
   if (destination.kind == Destination::Kind::foreign) return;
+  if (destination.kind == Destination::Kind::property && !set_.insert(destination.plug).second)
+    destination = {};
   if (destination.kind == Destination::Kind::none) {
     hold(source, property);
     gltf::Orphan& orphan = fresh_.orphans[static_cast<std::size_t>(orphans_[source])];

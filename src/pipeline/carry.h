@@ -76,6 +76,7 @@ class Carrier {
   bool is_foreign(std::size_t source) const;
   void find_places();
   void move_channels();
+  void move_channel(std::size_t clip, std::size_t channel, std::size_t source);
   void move_values();
   void move_value(std::size_t source, const update::Property& property, const scene::Value& value);
   int orphan_of(std::size_t source);
@@ -99,6 +100,9 @@ class Carrier {
   std::map<int, std::size_t> by_node_;   ///< glTF node to source
   std::vector<int> orphans_;             ///< by source: index in fresh_.orphans, -1
   std::vector<Move> moves_;
+  /// What has keys by clip, or a value: an orphan does not come back where something else is.
+  std::set<std::pair<std::size_t, scene::Plug>> keyed_;
+  std::set<scene::Plug> set_;
   std::map<std::string, std::size_t> changed_;  ///< by description: index in report_.changed
   std::optional<update::Remap> remap_;
   CarryReport report_;
