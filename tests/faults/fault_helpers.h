@@ -21,7 +21,7 @@ struct Command {
   std::string name;
   std::string binary;
   std::vector<std::string> arguments;
-  std::string target;  ///< the file whose name messages must give; empty: one of several
+  std::string target;  ///< the file that is replaced; empty: one of several
   Files before;        ///< what lies in the folder when it begins
   Files after;         ///< and when nothing went wrong
 };
