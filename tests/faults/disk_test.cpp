@@ -94,8 +94,7 @@ TEST_CASE("faults: the disk fills, at any size") {
         MESSAGE("left out: only root can mount a small disk (" << std::strerror(errno) << ")");
         return;
       }
-      for (const auto& [name, text] : command.before)
-        std::ofstream(stage.path() / name, std::ios::binary) << text;
+      stage.put_files();
       REQUIRE(stage.files() == command.before);
       const Outcome outcome = stage.run();
       CAPTURE(outcome.err);

@@ -102,6 +102,10 @@ Stage::Stage(const Command& command) : command_(command), folder_(faults_folder(
 void Stage::reset() const {
   fs::remove_all(folder_);
   fs::create_directories(folder_);
+  put_files();
+}
+
+void Stage::put_files() const {
   for (const auto& [name, text] : command_.before) {
     fs::create_directories((folder_ / name).parent_path());
     std::ofstream(folder_ / name, std::ios::binary) << text;

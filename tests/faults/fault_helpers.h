@@ -21,7 +21,7 @@ struct Command {
   std::string name;
   std::string binary;
   std::vector<std::string> arguments;
-  std::string target;  ///< the file whose name messages must give; empty: one of several
+  std::string target;  ///< the file that is replaced; empty: one of several
   Files before;        ///< what lies in the folder when it begins
   Files after;         ///< and when nothing went wrong
 };
@@ -32,6 +32,8 @@ class Stage {
   explicit Stage(const Command& command);
   /// Puts everything back to how it is before the command.
   void reset() const;
+  /// The files alone, into the folder that is there.
+  void put_files() const;
   /// The command in the folder as it is.
   Outcome run(const Environment& environment = {}) const;
   /// Starts the command and kills it so many microseconds later; false: it was done before.

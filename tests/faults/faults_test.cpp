@@ -27,10 +27,15 @@ std::vector<std::string> kinds_of(const std::string& call) {
   return kinds;
 }
 
-void check_message(const Command& command, const Outcome& outcome) {
+/// An error names the file that the call was about, or the one that could not be written then.
+void check_message(const Command& command, const std::string& call, const Outcome& outcome) {
   INFO(outcome.err);
   CHECK(outcome.err.find(": error[RIG0") != std::string::npos);
-  CHECK(outcome.err.find(command.target) != std::string::npos);
+  std::set<std::string> names = {call.substr(call.rfind('/') + 1)};
+  for (const auto& [name, text] : command.after) names.insert(name.substr(name.rfind('/') + 1));
+  CHECK(std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    return outcome.err.find(name) != std::string::npos;
+  }));
 }
 
 void fail_once(const Stage& stage, const std::string& call, int at, const std::string& kind) {
@@ -42,7 +47,7 @@ void fail_once(const Stage& stage, const std::string& call, int at, const std::s
   const Files files = stage.files();
   const bool refused = outcome.status == 3;
   CHECK((outcome.status == 0 || refused));
-  if (refused) check_message(stage.command(), outcome);
+  if (refused) check_message(stage.command(), call, outcome);
   if (!refused) CHECK(files == stage.command().after);
   // Bytes that come in pieces, and signals, are no failures.
   const bool harmless = kind == "short" || kind == std::to_string(EINTR);
