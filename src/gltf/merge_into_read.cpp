@@ -91,6 +91,7 @@ class Clashes {
     for (const std::string& pin : foreign_pins(from_, into_)) pins.push_back(pin);
     report(pins, "pin other versions of");
     shapes();
+    roots();
     if (into_.skeleton.joints.size() + from_.skeleton.joints.size() > kMostJoints ||
         into_.scene.size() + from_.scene.size() > kMostNodes)
       diagnostics_.report(codes::kRigTooLarge, Place(path_), "the rigs are too large together");
@@ -113,6 +114,15 @@ class Clashes {
     for (const tags::TaggedJoint& joint : from_.skeleton.joints)
       if (!joint.ids.local.empty() && locals.count(joint.ids.local)) both.insert(joint.ids.local);
     report({both.begin(), both.end()}, "both have the local groups");
+  }
+
+  /// A rig has one root control: the next build would refuse a second.
+  void roots() {
+    const auto root = [](const Rig& rig) {
+      return std::any_of(rig.commands.begin(), rig.commands.end(),
+                         [](const CommandRecord& command) { return command.module == "root"; });
+    };
+    if (root(into_) && root(from_)) report({"root"}, "both have commands of the module");
   }
 
   void shapes() {

@@ -37,8 +37,8 @@ inline constexpr Code kStaleBake{
     "The file has keys on joints that `rigc bake --keep-rig` made, and joints move otherwise now. "
     "Bake it again; keys on controls are what counts."};
 
-inline constexpr const Code* kUpdateCodes[] = {
-    &kNoRigHere, &kWouldOrphan, &kMoves, &kTemplateLost, &kOlderOnly, &kSettingGone, &kModelGone,
-    &kStaleBake};
+inline constexpr const Code* kUpdateCodes[] = {&kNoRigHere,    &kWouldOrphan, &kMoves,
+                                               &kTemplateLost, &kOlderOnly,   &kSettingGone,
+                                               &kModelGone,    &kStaleBake};
 
 }  // namespace rigc::pipeline::codes

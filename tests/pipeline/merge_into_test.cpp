@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// An arm with a hand and a root control of its own, which names its rig in a selector.
+/// An arm with a hand, which names its rig in a selector.
 const char* const kArm = R"(rigc: 1
 name: third_arm
 version: 3
@@ -39,11 +39,11 @@ joints:
     local: third
     label: base
     tags:
-      - command: root
+      - command: control
       - command: attribute
-        with: {"on": ./root.offset, attribute: half}
+        with: {attribute: half}
       - command: expression
-        with: {to: ./root.offset@half, value: "{extra:third.base/root.offset@translate.x} / 2"}
+        with: {to: ./control@half, value: "{extra:third.base/control@translate.x} / 2"}
 parts:
   - {template: parts/arm, as: arm_x, attach: base, groups: {spine: third}}
 )";
@@ -273,7 +273,7 @@ TEST_CASE("merge into: an arm joins a biped and follows its chest") {
   for (scene::NodeId id : rig.scene.nodes()) CHECK(rig.scene[id].identity.rig == rig.id);
   // The selector that named the rig by its group names the one that it is in now.
   const std::string text(opened(outcome.path).root()["extensions"]["RIGC_rig"].text());
-  CHECK(text.find("{hero:third.base/root.offset@translate.x} / 2") != std::string::npos);
+  CHECK(text.find("{hero:third.base/control@translate.x} / 2") != std::string::npos);
   CHECK(text.find("extra:") == std::string::npos);
 }
 
@@ -427,7 +427,11 @@ TEST_CASE("merge into: what cannot become one is refused") {
   CHECK(codes(two, "hero", {"third=spine.tail"}) == "RIG0689");
   CHECK(codes(two, "hero", {"third=spine.chest", "arm_x=head.head"}) == "RIG0689");
   CHECK(codes({hero, again, extra}, "extra", {"arm_l=third.base"}) == "RIG0689");
-  CHECK(codes({hero, again}, "hero", {"torso=spine.chest"}) == "RIG0696 RIG0696");
+  CHECK(codes({hero, again}, "hero", {"torso=spine.chest"}) == "RIG0696 RIG0696 RIG0696");
+  std::string root = kStick;
+  root.replace(root.find("command: control"), 16, "command: root");
+  CHECK(codes({hero, build(write("rooted.yaml", root), "rooted")}, "hero", {"stick=spine.chest"}) ==
+        "RIG0696");
   for (const char* attach : {"third", "third=", "third=chest", "a:b:third=spine.chest", "=a.b"})
     CHECK_MESSAGE(codes(two, "hero", {attach}) == "RIG0833", attach);
   CHECK(codes(two, "hero", {}) == "RIG0833");
