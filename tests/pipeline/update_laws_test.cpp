@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -622,6 +623,46 @@ TEST_CASE(
     CHECK(number_difference(original, after) <= 1e-6);
     CHECK(test::motion_difference(original, after, "") <= 1e-6);
     CHECK(changes(foreign, s.shot) == "");
+    CHECK(is_clean(s.shot));
+  }
+}
+
+TEST_CASE("update laws: taking a rig out leaves what others have put into the file") {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    EditOptions options;
+    options.turns = true;
+    Session s("strip", seed, options);
+    test::animate(s.shot, static_cast<unsigned>(seed));
+    Random random(seed);
+    Foreign foreign = add_foreign(s.shot, random);
+    s.publish(seed % 3);
+    s.update();
+    // What is written on a control goes with it, and channels move up in their clip.
+    const Shot built = test::read_shot(s.shot);
+    const gltf::Rig& rig = built.rigs.front();
+    std::set<int> joints;
+    for (const scene::NodeId id : rig.scene.nodes())
+      if (rig.scene[id].is_skeleton()) joints.insert(rig.nodes[id.index]);
+    std::string channel;
+    std::size_t on_joints = 0;
+    for (auto at = foreign.texts.begin(); at != foreign.texts.end();) {
+      int node = -1;
+      const bool of_node = std::sscanf(at->first.c_str(), "/nodes/%d/", &node) == 1 &&
+                           std::count(at->first.begin(), at->first.end(), '/') > 2;
+      const bool of_clip = at->first.starts_with("/animations/0/channels");
+      if (of_clip) channel = at->second;
+      on_joints += of_node && joints.count(node);
+      at = of_clip || (of_node && !joints.count(node)) ? foreign.texts.erase(at) : std::next(at);
+    }
+    CHECK(on_joints > 0);
+    Diagnostics diagnostics;
+    REQUIRE(pipeline::strip({}, {s.shot, s.shot, ""}, diagnostics));
+    CAPTURE(seed);
+    CHECK(changes(foreign, s.shot) == "");
+    CHECK(test::read_shot(s.shot).rigs.empty());
+    const auto left = test::load_character(s.shot).json["animations"][0]["channels"];
+    CHECK(std::any_of(left.begin(), left.end(),
+                      [&](const ordered_json& one) { return one.dump() == channel; }));
     CHECK(is_clean(s.shot));
   }
 }
