@@ -39,28 +39,24 @@ class Names {
     }
   }
 
-  /// Earlier identities of a node, the latest first.
-  std::vector<Identity> earlier(const Identity& now) const {
-    std::vector<JointKey> owners = keys(now.owner);
+  /// Earlier identities of a node, the latest first. `along`: what a command made for its own joint
+  /// and took along to another joint; else what it made for the node's joint.
+  std::vector<Identity> earlier(const Identity& now, bool along) const {
+    if (along && now.owner != now.holder) return {};
+    const std::vector<JointKey> owners = keys(now.owner);
     std::vector<std::pair<JointKey, std::string>> holders;
     for (const JointKey& key : keys(now.holder)) holders.emplace_back(key, now.command);
     const auto moved = commands_.find({now.holder, now.command});
     if (moved != commands_.end())
       for (auto was = moved->second.rbegin(); was != moved->second.rend(); ++was)
         for (const JointKey& key : with_earlier(was->first)) holders.emplace_back(key, was->second);
-    // What a command makes for its own joint goes with it to another joint.
-    const bool own = now.owner == now.holder;
     std::vector<Identity> out;
     for (const auto& [holder, command] : holders) {
       Identity identity = now;
       identity.holder = holder;
       identity.command = command;
-      for (const JointKey& owner : owners) {
+      for (const JointKey& owner : along ? std::vector<JointKey>{holder} : owners) {
         identity.owner = owner;
-        out.push_back(identity);
-      }
-      if (own && holder != owners.front()) {
-        identity.owner = holder;
         out.push_back(identity);
       }
     }
@@ -137,10 +133,12 @@ class Matcher {
   }
 
   void by_was() {
-    for (const NodeId id : open_)
-      for (const Identity& earlier : names_.earlier(in_any_rig(fresh_[id].identity)))
-        if (give(earlier, id, Rule::was)) break;
-    drop_taken();
+    for (const bool along : {false, true}) {
+      for (const NodeId id : open_)
+        for (const Identity& earlier : names_.earlier(in_any_rig(fresh_[id].identity), along))
+          if (give(earlier, id, Rule::was)) break;
+      drop_taken();
+    }
   }
 
   /// A node for a joint succeeds the one that another module made for that joint.

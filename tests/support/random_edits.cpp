@@ -35,7 +35,7 @@ void set(std::vector<std::pair<std::string, std::string>>& with, const std::stri
 EditedTemplate::EditedTemplate(std::uint64_t seed, const EditOptions& options) : options_(options) {
   Random random(seed);
   joints_.push_back({{"root"}, -1, {0, 0, 0}, 0, "base", "root", {}});
-  Command root{serial(), -1, "root", "root", {{"drive", "on"}}, {}, true};
+  Command root = make("root", "root", {{"drive", "on"}});
   joints_[0].commands.push_back(root);
   for (std::size_t g = 0; g < options.groups; ++g) {
     const std::string local = number("g");
@@ -69,16 +69,11 @@ std::string EditedTemplate::text() const {
                          joints_[static_cast<std::size_t>(joint.parent)].names.back());
     if (!joint.commands.empty()) out += "    tags:\n";
     for (const Command& command : joint.commands) {
-      out += fmt::format("      - command: {}\n        id: {}\n", command.module, command.id);
-      if (!command.on) out += "        on: off\n";
-      std::string was;
-      for (const auto& [holder, id] : command.was)
-        was += (was.empty() ? "" : ", ") + holder + "/" + id;
-      if (!was.empty()) out += "        was: [" + was + "]\n";
-      std::string with;
-      for (const auto& [name, value] : command.with)
-        with += fmt::format("{}\"{}\": {}", with.empty() ? "" : ", ", name, value);
-      if (!with.empty()) out += "        with: {" + with + "}\n";
+      if (command.feature.empty())
+        out += "      - " + text_of(command) + "\n";
+      else
+        out += fmt::format("      - {{feature: {}, on: {}, commands: [{}]}}\n", command.feature,
+                           command.on ? "on" : "off", text_of(command));
     }
   }
   if (!has_part_) return out;
@@ -86,6 +81,18 @@ std::string EditedTemplate::text() const {
   for (std::size_t i = 0; i + 1 < part_names_.size(); ++i) was += (i ? ", " : "") + part_names_[i];
   return out + fmt::format("parts:\n  - {{template: edited_part, as: {}, attach: root{}}}\n",
                            part_names_.back(), was.empty() ? "" : ", was: [" + was + "]");
+}
+
+std::string EditedTemplate::text_of(const Command& command) {
+  std::string out = fmt::format("{{command: {}, id: {}", command.module, command.id);
+  if (!command.on && command.feature.empty()) out += ", \"on\": off";
+  std::string was, with;
+  for (const auto& [holder, id] : command.was) was += (was.empty() ? "" : ", ") + holder + "/" + id;
+  for (const auto& [name, value] : command.with)
+    with += fmt::format("{}\"{}\": {}", with.empty() ? "" : ", ", name, value);
+  if (!was.empty()) out += ", was: [" + was + "]";
+  if (!with.empty()) out += ", with: {" + with + "}";
+  return out + "}";
 }
 
 std::string EditedTemplate::part_text() {
@@ -123,8 +130,15 @@ EditedTemplate::Drive EditedTemplate::any_drive(Random& random) const {
   return static_cast<Drive>(1 + random.below(options_.turns ? 3 : 2));
 }
 
+EditedTemplate::Command EditedTemplate::make(
+    const std::string& module, const std::string& id,
+    std::vector<std::pair<std::string, std::string>> with) {
+  const int number = serial();
+  return {number, number, module, id, std::move(with), {}, true, {}};
+}
+
 EditedTemplate::Command EditedTemplate::control(Random& random, bool drives) {
-  Command out{serial(), -1, "control", number("c"), {}, {}, true};
+  Command out = make("control", number("c"), {});
   out.with = {{"drive", drives ? "on" : "off"},
               {"size", fmt::format("{:.2f}", random.number(0.1, 1))}};
   out.with.emplace_back("orient", orient(random));
@@ -178,11 +192,11 @@ void EditedTemplate::drive(const std::string& local, Drive drive, Random& random
       joints_[joint].commands.insert(joints_[joint].commands.begin(), std::move(made));
     }
   } else if (drive == Drive::chain) {
-    Command made{serial(), -1, "fk_chain", number("f"), {}, {}, true};
+    Command made = make("fk_chain", number("f"), {});
     made.with = {{"joints", "\"" + local + "[*]\""}, {"orient", orient(random)}};
     first.commands.push_back(std::move(made));
   } else if (drive == Drive::limb) {
-    Command made{serial(), -1, "ik_fk_limb", number("i"), {}, {}, true};
+    Command made = make("ik_fk_limb", number("i"), {});
     for (std::size_t i = 0; i < 3; ++i) joints_[joints[i]].label = "l" + std::to_string(i);
     for (std::size_t i = 3; i < joints.size(); ++i) joints_[joints[i]].label = number("l");
     made.with = {{"start", local + ".l0"},
@@ -335,7 +349,7 @@ std::string EditedTemplate::retype(Random& random) {
   Joint& first = joints_[joints.front()];
   Command& command = first.commands.back();
   const auto& [holder, before] = gone.front();
-  command.origin = before.serial;
+  command.family = before.family;
   if (holder == first.names.front() && random.chance(0.5)) {
     command.id = before.id;
     return "retyped under its id";
@@ -360,7 +374,6 @@ std::string EditedTemplate::split_group(Random& random) {
       if (command.module != "fk_chain" || value != "\"" + local + "[*]\"") continue;
       Command made = command;
       made.serial = serial();
-      made.origin = command.serial;
       made.id = number("f");
       made.was = command.was;
       made.was.emplace_back(joint.names.front(), command.id);
@@ -438,6 +451,15 @@ std::string EditedTemplate::switch_command(Random& random) {
   return "command switched";
 }
 
+std::string EditedTemplate::change_feature(Random& random) {
+  Joint* holder = nullptr;
+  Command* command = any_command(random, &holder);
+  if (!command || command->module == "root") return "";
+  // Each is a feature of its own: it is on where its command is.
+  command->feature = command->feature.empty() ? number("feature") : "";
+  return "feature changed";
+}
+
 std::string EditedTemplate::add_control(Random& random) {
   joints_[any(joints_, random)].commands.push_back(control(random, false));
   return "control added";
@@ -447,7 +469,7 @@ std::string EditedTemplate::add_attribute(Random& random) {
   Joint* holder = nullptr;
   Command* command = any_command(random, &holder);
   if (!command || command->module != "control" || !command->on) return "";
-  Command made{serial(), -1, "attribute", number("a"), {}, {}, true};
+  Command made = make("attribute", number("a"), {});
   made.with = {{"on", on_control(command->id)}, {"attribute", number("n")}};
   made.with.emplace_back("min", "-5");
   made.with.emplace_back("max", "5");
@@ -490,6 +512,13 @@ std::string EditedTemplate::turn_control(Random& random) {
 }
 
 std::string EditedTemplate::edit(Random& random) {
+  remember_places();
+  std::string done = any_edit(random);
+  remember_places();
+  return done;
+}
+
+std::string EditedTemplate::any_edit(Random& random) {
   using Edit = std::string (EditedTemplate::*)(Random&);
   const Edit edits[] = {&EditedTemplate::add_joint,      &EditedTemplate::insert_joint,
                         &EditedTemplate::remove_joint,   &EditedTemplate::rename_joint,
@@ -497,10 +526,10 @@ std::string EditedTemplate::edit(Random& random) {
                         &EditedTemplate::retype,         &EditedTemplate::split_group,
                         &EditedTemplate::move_joint,     &EditedTemplate::move_command,
                         &EditedTemplate::rename_command, &EditedTemplate::change_look,
-                        &EditedTemplate::switch_command, &EditedTemplate::add_control,
-                        &EditedTemplate::add_attribute,  &EditedTemplate::remove_command,
-                        &EditedTemplate::rename_part,    &EditedTemplate::switch_part,
-                        &EditedTemplate::turn_control};
+                        &EditedTemplate::switch_command, &EditedTemplate::change_feature,
+                        &EditedTemplate::add_control,    &EditedTemplate::add_attribute,
+                        &EditedTemplate::remove_command, &EditedTemplate::rename_part,
+                        &EditedTemplate::switch_part,    &EditedTemplate::turn_control};
   // Templates of a hundred versions do not grow without end.
   while (joints_.size() > 16) {
     const std::string done = remove_joint(random);
@@ -513,19 +542,27 @@ std::string EditedTemplate::edit(Random& random) {
   }
 }
 
+void EditedTemplate::remember_places() {
+  for (const Joint& joint : joints_) {
+    for (const Command& command : joint.commands) {
+      const std::pair<int, Holder> place{command.family, {joint.names.front(), command.id}};
+      if (std::find(places_.begin(), places_.end(), place) == places_.end())
+        places_.push_back(place);
+    }
+  }
+}
+
 EditedTemplate EditedTemplate::returning_from(const EditedTemplate& now) const {
   EditedTemplate out = *this;
   out.version = now.version + 1;
   out.next_ = std::max(next_, now.next_);
+  out.places_ = now.places_;
   for (Joint& joint : out.joints_) {
     for (Command& command : joint.commands) {
-      for (const Joint& holder : now.joints_) {
-        for (const Command& other : holder.commands) {
-          if (other.serial != command.serial && other.origin != command.serial) continue;
-          const Holder was{holder.names.front(), other.id};
-          if (was != Holder{joint.names.front(), command.id}) command.was.push_back(was);
-        }
-      }
+      command.was.clear();
+      for (const auto& [family, place] : now.places_)
+        if (family == command.family && place != Holder{joint.names.front(), command.id})
+          command.was.push_back(place);
     }
   }
   return out;

@@ -32,8 +32,8 @@ class EditedTemplate {
   /// One random edit; says which. The version stays.
   std::string edit(Random& random);
 
-  /// The content of this template as a version that follows `now`: its commands say where `now` has
-  /// what they make.
+  /// The content of this template as a version that follows `now`: its commands say where versions
+  /// up to `now` had what they make.
   EditedTemplate returning_from(const EditedTemplate& now) const;
 
   int version = 100;
@@ -41,11 +41,12 @@ class EditedTemplate {
  private:
   using Holder = std::pair<std::string, std::string>;  ///< first name of a joint, command id
   struct Command {
-    int serial = 0, origin = -1;  ///< itself, and the command that it took its nodes from
+    int serial = 0, family = 0;  ///< itself, and the first command that it took its nodes from
     std::string module, id;
     std::vector<std::pair<std::string, std::string>> with;
     std::vector<Holder> was;
     bool on = true;
+    std::string feature;  ///< that it belongs to; empty: none
   };
   struct Joint {
     std::vector<std::string> names;  ///< oldest first, the last is its name
@@ -58,10 +59,15 @@ class EditedTemplate {
   /// What drives the joints of a group, so that no two commands fight for one.
   enum class Drive { none, chain, controls, limb };
 
+  static std::string text_of(const Command& command);
   int serial() { return next_++; }
+  void remember_places();
+  std::string any_edit(Random& random);
   std::string number(const char* word) { return word + std::to_string(serial()); }
   std::string orient(Random& random) const;
   Drive any_drive(Random& random) const;
+  Command make(const std::string& module, const std::string& id,
+               std::vector<std::pair<std::string, std::string>> with);
   Command control(Random& random, bool drives);
   void drive(const std::string& local, Drive drive, Random& random);
   std::vector<std::size_t> joints_of(const std::string& local) const;
@@ -85,6 +91,7 @@ class EditedTemplate {
   std::string rename_command(Random& random);
   std::string change_look(Random& random);
   std::string switch_command(Random& random);
+  std::string change_feature(Random& random);
   std::string add_control(Random& random);
   std::string add_attribute(Random& random);
   std::string remove_command(Random& random);
@@ -97,6 +104,7 @@ class EditedTemplate {
   std::vector<std::string> part_names_ = {"flag"};
   bool has_part_ = true;
   int next_ = 0;
+  std::vector<std::pair<int, Holder>> places_;  ///< where commands of a family have ever been
 };
 
 }  // namespace rigc::test

@@ -170,6 +170,20 @@ TEST_CASE("match: a command that moved takes its nodes along") {
   CHECK(matched(old.sources(), fresh, skeleton) == "0:was 1:was ");
 }
 
+TEST_CASE("match: a command for several joints moves to another of them") {
+  Made old, fresh;
+  old.add(identity(kA, kB, "chain"));
+  old.add(identity(kB, kB, "chain"));
+  for (const JointKey& joint : {kC, kA, kB}) fresh.add(identity(joint, kA, "chain"));
+  TaggedSkeleton skeleton = joints({kA, kB, kC});
+  give_command(skeleton, 0, "chain", {holder(kB, "chain")});
+  CHECK(matched(old.sources(), fresh, skeleton) == "1:was 2:was ");
+  // It makes nothing any more for the joint that held it: that is not its holder's now.
+  Made less;
+  less.add(identity(kA, kA, "chain"));
+  CHECK(matched(old.sources(), less, skeleton) == "0:was - ");
+}
+
 TEST_CASE("match: a command that moved from a joint that was renamed") {
   Made old, fresh;
   old.add(identity(kA, kA, "main"));
