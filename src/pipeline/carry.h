@@ -11,6 +11,7 @@
 
 #include "anim/clip.h"
 #include "catalog/catalogue.h"
+#include "catalog/changes.h"
 #include "gltf/channels.h"
 #include "gltf/rig.h"
 #include "update/remap.h"
@@ -34,8 +35,10 @@ struct CarryReport {
   std::size_t kept_values = 0;           ///< values without keys, likewise
   std::vector<CarriedProperty> changed;  ///< remapped, converted, orphaned or back
   std::vector<std::string> inexact;      ///< properties whose values cannot be said exactly
-  std::size_t orphans = 0;               ///< properties that remain without a node
-  std::size_t new_orphans = 0;           ///< that had one before
+  std::vector<std::string> set;  ///< properties that a new module has another value of, so that
+                                 ///< what was keyed on the one before plays on
+  std::size_t orphans = 0;      ///< properties that remain without a node
+  std::size_t new_orphans = 0;  ///< that had one before
 };
 
 /// Compares in one clip.
@@ -75,6 +78,9 @@ class Carrier {
   int node_of(std::size_t source) const;
   bool is_foreign(std::size_t source) const;
   void find_places();
+  void succeed();
+  void set_as_before(const Identity& successor, const catalog::AttributeValue& wanted);
+  void remember(const Identity& replaced, const catalog::AttributeValue& wanted);
   void move_channels();
   void move_values();
   void move_value(std::size_t source, const update::Property& property, const scene::Value& value);
@@ -90,6 +96,7 @@ class Carrier {
   gltf::Rig& fresh_;
   const std::vector<anim::Clip>& clips_;
   const std::set<int>& animated_;
+  const catalog::Catalogue& catalogue_;
   update::Options options_;
   scene::Scene built_;
   std::vector<update::Source> sources_;

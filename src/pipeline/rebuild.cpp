@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "base/text.h"
 #include "pipeline/codes.h"
+#include "pipeline/merge_codes.h"
 #include "pipeline/update_codes.h"
 #include "tags/settings.h"
 

@@ -16,8 +16,6 @@ inline constexpr Code kWouldOrphan{
 inline constexpr Code kMoves{882, Severity::error, "the rig plays differently",
                              "A joint moves by more than --tolerance allows between the old and "
                              "the new rig. The file is left alone."};
-inline constexpr Code kNoSuchRig{883, Severity::error, "no such rig",
-                                 "No rig of the file has this global group."};
 inline constexpr Code kTemplateLost{
     884, Severity::error, "template not found",
     "The template that made the rig is in none of the template folders. Name its folder with "
@@ -34,8 +32,7 @@ inline constexpr Code kModelGone{
     887, Severity::error, "the model's skeleton is not found",
     "The rig was fitted to joints of the model that no skeleton of the file has any more."};
 
-inline constexpr const Code* kUpdateCodes[] = {&kNoRigHere,    &kWouldOrphan, &kMoves,
-                                               &kNoSuchRig,    &kTemplateLost, &kOlderOnly,
-                                               &kSettingGone, &kModelGone};
+inline constexpr const Code* kUpdateCodes[] = {
+    &kNoRigHere, &kWouldOrphan, &kMoves, &kTemplateLost, &kOlderOnly, &kSettingGone, &kModelGone};
 
 }  // namespace rigc::pipeline::codes

@@ -157,8 +157,7 @@ Outcome join(const std::vector<std::string>& files, const std::string& name,
   pipeline::merge_files({files, false, into, attach, {}}, outcome.path, diagnostics);
   outcome.codes = test::codes(diagnostics);
   std::string models;
-  for (const std::string& file : files)
-    models += file + "\n";
+  for (const std::string& file : files) models += file + "\n";
   test::made_from(outcome.path, models);
   return outcome;
 }

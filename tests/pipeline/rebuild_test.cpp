@@ -9,6 +9,7 @@
 #include "pipeline/build.h"
 #include "pipeline/character_helpers.h"
 #include "pipeline/inspect.h"
+#include "pipeline/merge_codes.h"
 #include "pipeline/named_edits_helpers.h"
 #include "pipeline/update_codes.h"
 
@@ -264,16 +265,17 @@ TEST_CASE("strip: a model is what it was, byte for byte") {
     REQUIRE_MESSAGE(removed, said(diagnostics));
     CHECK(removed->channels > 0);
     CHECK(removed->orphans > 0);
-    // The clips that were made for the test remain, empty.
     const test::Character before = test::load_character(model),
                           after = test::load_character(s.shot);
     for (auto at = before.json.begin(); at != before.json.end(); ++at) {
       INFO(at.key());
-      if (at.key() != "animations") CHECK(after.json[at.key()] == at.value());
+      // What the test's own clips brought is behind the model's: they remain, empty.
+      const bool longer = at.value().is_array() && at.key() != "nodes" && at.key() != "buffers";
+      if (at.key() == "buffers") continue;
+      if (!longer) CHECK(after.json[at.key()] == at.value());
+      for (std::size_t i = 0; longer && i < at.value().size(); ++i)
+        CHECK(after.json[at.key()][i] == at.value()[i]);
     }
-    if (!before.json.contains("animations")) continue;
-    const auto& clips = before.json["animations"];
-    for (std::size_t i = 0; i < clips.size(); ++i) CHECK(after.json["animations"][i] == clips[i]);
   }
   if (stripped == 0) MESSAGE("the corpus is absent: nothing was stripped");
 }
