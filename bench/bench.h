@@ -8,10 +8,12 @@
 namespace rigc::bench {
 
 void add_process_benchmarks();
+void add_status_benchmarks();
 void add_large_benchmarks();
 void add_json_benchmarks();
 void add_stage_benchmarks();
 void add_eval_benchmarks();
+void add_batch_benchmarks();
 
 /// Runs a program to its end, its stdout thrown away; true where it ended with status 0.
 bool run_process(std::vector<std::string> words);

@@ -12,10 +12,12 @@ double rigc::bench::least(const std::vector<double>& times) {
 
 int main(int argc, char** argv) {
   rigc::bench::add_process_benchmarks();
+  rigc::bench::add_status_benchmarks();
   rigc::bench::add_large_benchmarks();
   rigc::bench::add_json_benchmarks();
   rigc::bench::add_stage_benchmarks();
   rigc::bench::add_eval_benchmarks();
+  rigc::bench::add_batch_benchmarks();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

@@ -27,8 +27,9 @@ class Adopt final : public Command {
                  "The rig file that the other program imported");
     options.text("-o,--output", "OUT.glb", out_, true, "File to write (.glb or .gltf)");
     options.flag("--skeleton", request_.skeleton,
-                 "Take placements of joints too; controls follow when the rig is built again");
+                 "Take placements of joints too, and build the rig on them");
     options.list("--clip", "NAME", request_.clips, "Take this clip (default: all)");
+    declare_modules(options, request_.paths);
   }
   void run(Session& session) override {
     const auto adopted = pipeline::adopt(request_, out_, session.diagnostics);

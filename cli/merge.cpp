@@ -49,9 +49,12 @@ class Merge final : public Command {
       session.out = w.member("clips", merged.clips).end_object().take() + "\n";
       return;
     }
-    session.out =
-        fmt::format("{}: {} rigs, {} meshes, {} clips, {} KB\n", printable(out_), merged.rigs,
-                    merged.meshes, merged.clips, (result->bytes + 1023) / 1024);
+    const auto counted = [](std::size_t count, std::string_view what) {
+      return fmt::format("{} {}{}", count, what, count == 1 ? "" : what == "mesh" ? "es" : "s");
+    };
+    session.out = fmt::format("{}: {}, {}, {}, {} KB\n", printable(out_),
+                              counted(merged.rigs, "rig"), counted(merged.meshes, "mesh"),
+                              counted(merged.clips, "clip"), (result->bytes + 1023) / 1024);
     if (!result->joined.rigs.empty())
       session.out +=
           fmt::format("  joined {} to {}: {} joints\n", printable(join(result->joined.rigs, ", ")),

@@ -129,6 +129,26 @@ bool check_roots(const Joining& joining, const std::string& path, Diagnostics& d
   return complete;
 }
 
+/// Nothing comes to hang under itself: one rig's joints may stand above the other's in the file.
+bool check_above(const Joining& joining, const Moved& moved, const PatchNodes& nodes,
+                 const std::string& path, Diagnostics& diagnostics) {
+  const Rig &into = joining.into.rig, &from = joining.from.rig;
+  for (const auto& [id, place] : moved.nodes) {
+    const auto& joint = into.skeleton.joints[static_cast<std::size_t>(place.first)];
+    const int node = nodes.node_of(from, id);
+    int at = nodes.node_of(into, joint_node(into, joint.key));
+    while (at >= 0 && at != node) at = nodes.parents[static_cast<std::size_t>(at)];
+    if (at < 0) continue;
+    diagnostics.report(
+        codes::kRigsClash, Place(path, fmt::format("/nodes/{}", node)),
+        fmt::format("\"{}\" of the rig \"{}\" hangs under \"{}\", which cannot "
+                    "hang under it",
+                    printable(joint.name), into.skeleton.global, printable(from.scene[id].name)));
+    return false;
+  }
+  return true;
+}
+
 /// Hangs the nodes of what had no parent under the nodes of joints, and gives them.
 std::set<int> hang_nodes(Patch& patch, const Joining& joining, const Moved& moved,
                          PatchNodes& nodes) {
@@ -255,6 +275,7 @@ std::optional<std::vector<Attach>> join_first(Patch& patch, const std::string& p
   if (!check_distinct(joining, path, diagnostics) || !complete) return std::nullopt;
 
   const Moved moved = move_roots(joining);
+  if (!check_above(joining, moved, nodes, path, diagnostics)) return std::nullopt;
   const std::string text = joined_text(joining, moved);
   const std::set<int> hung = hang_nodes(patch, joining, moved, nodes);
   check_skins(patch, nodes);

@@ -46,7 +46,7 @@ class FromText {
     const auto nodes = item["nodes"].items();
     for (std::size_t i = 0; i < nodes.size(); ++i)
       edit_node(nodes[i], scene::NodeId{static_cast<std::uint32_t>(i)});
-    for (const Value& orphan : item["orphans"].items()) renumber(orphan["identity"]);
+    for (const Value& orphan : item["orphans"].items()) edit_orphan(orphan);
     const auto templates = item["templates"].items();
     if (!templates.empty() && !templates[0]["main"]) edits.insert(templates[0], "main", "true");
     edits.sort();
@@ -88,6 +88,20 @@ class FromText {
     const scene::NodeId above = joint_node(joining_.into.rig, joint.key);
     edits.insert(node, "parent", std::to_string(above.index));
     place(node, moved->second.second);
+  }
+
+  /// What it holds is seen from axes of the rig's space.
+  void edit_orphan(const Value& orphan) {
+    renumber(orphan["identity"]);
+    const auto items = orphan["space"].items();
+    double n[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    for (std::size_t i = 0; i < 9 && items.size() == 9; ++i) n[i] = items[i].number().value_or(0);
+    const math::Mat3 axes{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}};
+    const math::Mat3 now = joining_.space.linear * axes;
+    if (now == axes) return;
+    const double out[] = {now.x.x, now.x.y, now.x.z, now.y.x, now.y.y,
+                          now.y.z, now.z.x, now.z.y, now.z.z};
+    set(orphan, "space", numbers(out, 9));
   }
 
   void place(const Value& node, const math::Trs& trs) {

@@ -30,9 +30,12 @@ class RigRemap {
     }
     for (const char* part : {"stays", "goes"})
       for (const auto& [array, runs] : item["owned"][part].members()) set_runs(runs, array);
-    for (const Value& orphan : item["orphans"].items()) {
-      set_node(orphan["node"], -1);
-      set_identity(orphan["identity"]);
+    const auto orphans = item["orphans"].items();
+    for (std::size_t i = 0; i < orphans.size(); ++i) {
+      // Where one is lost, nobody says which.
+      const bool all = rig_.orphans.size() == orphans.size();
+      set_node(orphans[i]["node"], all ? rig_.orphans[i].node : -1);
+      set_identity(orphans[i]["identity"]);
     }
   }
 

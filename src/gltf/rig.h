@@ -80,7 +80,7 @@ struct Rig {
   std::uint32_t id = 0;
   tags::TaggedSkeleton skeleton;
   tags::Settings settings;
-  /// Name and version of each module that made something.
+  /// Name and version of each module that its tags name.
   std::vector<std::pair<std::string, int>> modules;
   /// In the order they ran; Node::command is an index into it.
   std::vector<CommandRecord> commands;

@@ -45,7 +45,7 @@ OrphanSummary read_orphan(const json::Value& object, JsonReader& reader) {
   reader.get(object, "local", orphan.local);
   reader.get(object, "label", orphan.label);
   for (const json::Value& attribute : reader.objects(object, "attributes", kMostNodes))
-    reader.get(attribute, "name", orphan.attributes.emplace_back());
+    reader.get(attribute, "name", orphan.attributes.emplace_back(), Need::required);
   return orphan;
 }
 

@@ -28,7 +28,7 @@ struct RigSummary {
   std::string name;      ///< of the template
   std::string global;
   std::vector<tags::TemplateReference> templates;  ///< the main one first
-  /// Name and version of each module that made something.
+  /// Name and version of each module that its tags name.
   std::vector<std::pair<std::string, int>> modules;
   tags::Settings settings;
   std::vector<OrphanSummary> orphans;

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <initializer_list>
+#include <span>
+#include <string_view>
 #include <utility>
 
 #include "gltf/rig_summary.h"
@@ -21,6 +22,13 @@ constexpr std::array<bool, 256> kStops = [] {
   return stops;
 }();
 
+// What is copied of the root, of `extensions`, of RIGC_rig and of a rig.
+constexpr std::string_view kRoot[] = {"extensions"};
+constexpr std::string_view kExtensions[] = {"RIGC_rig"};
+constexpr std::string_view kExtension[] = {"version", "rigs"};
+constexpr std::string_view kRig[] = {"id",      "name",     "global", "templates",
+                                     "modules", "settings", "orphans"};
+
 /// Walks a text that may be anything; every function gives false where it is no JSON or has escapes
 /// where keys are compared.
 class Skimmer {
@@ -28,14 +36,13 @@ class Skimmer {
   explicit Skimmer(std::string_view text) : at_(text.data()), end_(at_ + text.size()) {}
 
   bool run(std::string& out) {
-    static constexpr std::initializer_list<std::string_view> kRoot = {"extensions"};
     if (!copy_object(kRoot, out, 0)) return false;
     skip_blanks();
     return at_ == end_;
   }
 
  private:
-  using Keys = std::initializer_list<std::string_view>;
+  using Keys = std::span<const std::string_view>;
 
   void skip_blanks() {
     while (at_ != end_ && is_blank(*at_)) ++at_;
@@ -127,8 +134,6 @@ class Skimmer {
   }
 
   bool copy_member(std::string_view key, std::string& out, int level) {
-    static constexpr Keys kExtensions = {"RIGC_rig"};
-    static constexpr Keys kExtension = {"version", "rigs"};
     skip_blanks();
     const char first = at_ == end_ ? '\0' : *at_;
     if (level == 0 && first == '{') return copy_object(kExtensions, out, 1);
@@ -138,8 +143,6 @@ class Skimmer {
   }
 
   bool copy_rigs(std::string& out) {
-    static constexpr Keys kRig = {"id",      "name",     "global", "templates",
-                                  "modules", "settings", "orphans"};
     if (!take('[')) return false;
     out += '[';
     if (take(']')) return out += ']', true;

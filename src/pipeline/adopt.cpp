@@ -11,6 +11,7 @@
 #include "pipeline/adopt_steps.h"
 #include "pipeline/build.h"
 #include "pipeline/codes.h"
+#include "pipeline/rebuild.h"
 
 namespace rigc::pipeline {
 namespace {
@@ -138,6 +139,12 @@ std::optional<Adopted> adopt(const AdoptRequest& request, const std::string& out
   if (request.skeleton) adopt_joints(*edited, *original, *twins, patch, report);
   gltf::write_clips(patch, original->file, *changes);
   if (!write_output(patch, original->file, out, report.bytes, diagnostics)) return std::nullopt;
+  if (report.joints == 0) return report;
+  RebuildRequest again;
+  again.paths = request.paths;
+  const auto rebuilt = rebuild(again, {out, out, {}}, diagnostics);
+  if (!rebuilt) return std::nullopt;
+  report.bytes = rebuilt->bytes;
   return report;
 }
 

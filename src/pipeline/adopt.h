@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "pipeline/environment.h"
 
 namespace rigc::pipeline {
 
@@ -16,7 +17,8 @@ struct AdoptRequest {
   std::string edited;              ///< comes from the application
   std::string original;            ///< the rig file that went into it
   std::vector<std::string> clips;  ///< names in the edited file; empty: all
-  bool skeleton = false;           ///< take placements of joints too
+  bool skeleton = false;           ///< take placements of joints too, and build the rig on them
+  Paths paths;                     ///< modules
 };
 
 /// What became of a clip of the edited file.
@@ -41,7 +43,7 @@ struct Adopted {
 };
 
 /// Writes the original with what was edited. Placements of joints go into the rig's tags and to the
-/// joints' nodes; controls follow when the rig is built again.
+/// joints' nodes, and the rigs are built again so that controls follow.
 std::optional<Adopted> adopt(const AdoptRequest& request, const std::string& out,
                              Diagnostics& diagnostics);
 

@@ -170,14 +170,21 @@ Rests moved_joints(const gltf::Rig& rig, const JointTwins& twins, const Rested& 
       if (found == twins.end()) continue;
       parent = found->second;
     }
-    const auto below = [](const std::vector<Affine>& worlds, int above, int node) {
-      const Affine& world = worlds[static_cast<std::size_t>(node)];
-      return above < 0 ? world : inverse(worlds[static_cast<std::size_t>(above)]) * world;
+    const auto below = [](const Affine* above, const Affine& world) {
+      return above ? inverse(*above) * world : world;
     };
-    const Affine was = below(before.worlds, parent ? parent->original : -1, own->second->original);
-    const Affine there = below(now.worlds, parent ? parent->edited : -1, own->second->edited);
-    const bool carried = !parent && now.bound[static_cast<std::size_t>(own->second->edited)];
-    const Affine is = carried ? back * there : there;
+    const auto at = [](const Rested& rested, int node) {
+      return &rested.worlds[static_cast<std::size_t>(node)];
+    };
+    const auto bound = [&](const Twin* twin) {
+      return twin && now.bound[static_cast<std::size_t>(twin->edited)];
+    };
+    const bool carried = bound(own->second) && !bound(parent);
+    const Affine world = *at(now, own->second->edited);
+    const Affine was =
+        below(parent ? at(before, parent->original) : nullptr, *at(before, own->second->original));
+    const Affine is =
+        below(parent ? at(now, parent->edited) : nullptr, carried ? back * world : world);
     if (same_place(*own->second, was, is)) continue;
     math::Trs rest =
         templates::tidy(math::decompose(math::compose(joint.rest) * inverse(was) * is));

@@ -148,10 +148,11 @@ Installed::Installed(std::vector<std::string> folders, const catalog::Catalogue&
 Assessment Installed::assess(const std::vector<tags::TemplateReference>& templates,
                              const std::vector<std::pair<std::string, int>>& modules) const {
   Assessment out;
+  std::string main;  // path of the one whose parts follow
   for (const tags::TemplateReference& made : templates) {
-    const bool main = out.templates.empty();
-    out.templates.push_back(main ? main_status(made)
-                                 : part_status(made, out.templates.front().path));
+    const bool is_main = out.templates.empty() || made.main;
+    out.templates.push_back(is_main ? main_status(made) : part_status(made, main));
+    if (is_main) main = out.templates.back().path;
   }
   for (const auto& [name, version] : modules) out.modules.push_back(module_status(name, version));
   if (!templates.empty())

@@ -187,8 +187,8 @@ class Runner {
   }
 
   FileResult run_one(const FileWork& work, Diagnostics& diagnostics) {
-    const bool elsewhere = work.output != work.input;
-    if (request_.writes && elsewhere && !make_folder_of(work.output, diagnostics)) return {};
+    const bool mirrors = request_.writes && !request_.out_dir.empty();
+    if (mirrors && !make_folder_of(work.output, diagnostics)) return {};
     try {
       return work_(work, diagnostics);
     } catch (const std::bad_alloc&) {

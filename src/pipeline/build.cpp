@@ -184,10 +184,20 @@ bool list_commands(Compilation& out, const BuildRequest& request,
 
 namespace {
 
+/// Versions of all modules that the tags name: those that are off may run another time.
+std::vector<std::pair<std::string, int>> module_versions(const tags::TaggedSkeleton& skeleton,
+                                                         const catalog::Catalogue& catalogue) {
+  std::map<std::string, int> versions;
+  for (const tags::TaggedJoint& joint : skeleton.joints)
+    for (const tags::CommandTag& tag : joint.commands)
+      if (const catalog::Descriptor* descriptor = catalogue.find(tag.module))
+        versions[tag.module] = descriptor->version;
+  return {versions.begin(), versions.end()};
+}
+
 /// What ran, for the file and for people.
 void record_commands(const Compilation& compilation, const processor::Processor& processor,
                      const Sources& sources, gltf::Rig& rig) {
-  std::map<std::string, int> versions;
   for (std::size_t i = 0; i < processor.position(); ++i) {
     const processor::Command& command = compilation.commands.commands[i];
     const tags::TaggedJoint& joint = compilation.skeleton.joints[command.joint];
@@ -195,9 +205,7 @@ void record_commands(const Compilation& compilation, const processor::Processor&
     rig.commands.push_back({joint.key, joint.name, tag.id, tag.module, !processor.skipped(i),
                             std::string(sources.name(tag.span.file)),
                             static_cast<int>(tag.span.line)});
-    versions[tag.module] = command.descriptor->version;
   }
-  rig.modules.assign(versions.begin(), versions.end());
 }
 
 }  // namespace
@@ -211,6 +219,7 @@ std::optional<gltf::Rig> run_commands(const Compilation& compilation,
   gltf::Rig rig;
   rig.id = compilation.rig_id;
   rig.settings = compilation.settings;
+  rig.modules = module_versions(compilation.declared, catalogue);
   record_commands(compilation, processor, diagnostics.sources(), rig);
   for (std::size_t i = 0; i < processor.position(); ++i) skipped += processor.skipped(i) ? 1 : 0;
   rig.scene = processor.take_scene();

@@ -221,6 +221,7 @@ void Carrier::move_channels() {
       const Property property = property_of(channel);
       if (is_foreign(source) || move.destination.kind == Destination::Kind::foreign) {
         move.stays = true;
+        report_.baked_channels += channel.baked ? 1 : 0;
         if (!source_node_taken_[source] && !is_foreign(source)) orphan_of(source);
         moves_.push_back(std::move(move));
         continue;
@@ -237,6 +238,7 @@ void Carrier::move_channels() {
         else if (curve.values != channel.curve.values)
           move.curve = std::move(curve);
       }
+      report_.baked_channels += channel.baked ? 1 : 0;
       if (!channel.baked) count(source, property, move.destination, true, converted);
       moves_.push_back(std::move(move));
     }
@@ -246,6 +248,7 @@ void Carrier::move_channels() {
 void Carrier::move_value(std::size_t source, const Property& property, const scene::Value& value) {
   const Destination destination = remap_->find(source, property);
   if (destination.kind == Destination::Kind::foreign) return;
+  if (implied_.count({source, property.attribute}) != 0) return;
   if (destination.kind == Destination::Kind::none) {
     hold(source, property);
     gltf::Orphan& orphan = fresh_.orphans[static_cast<std::size_t>(orphans_[source])];
@@ -337,7 +340,13 @@ void Carrier::remember(const Identity& replaced, const catalog::AttributeValue& 
                        from.identity.role == wanted.role;
     if (!meant || matches_[i]) continue;
     const auto plug = built_.find_plug(from.node, wanted.attribute);
-    if (!plug || built_.value(*plug) == scene::Value(wanted.value)) continue;
+    if (!plug) continue;
+    // It comes back with the module, for the same reason as it went.
+    if (old_.scene.value(*plug) == scene::Value(wanted.value)) {
+      implied_.emplace(i, wanted.attribute);
+      continue;
+    }
+    if (built_.value(*plug) == scene::Value(wanted.value)) continue;
     hold(i, {Path::attribute, wanted.attribute});
     for (scene::UserAttribute& held :
          fresh_.orphans[static_cast<std::size_t>(orphans_[i])].attributes)

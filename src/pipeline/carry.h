@@ -35,10 +35,12 @@ struct CarryReport {
   std::size_t kept_values = 0;           ///< values without keys, likewise
   std::vector<CarriedProperty> changed;  ///< remapped, converted, orphaned or back
   std::vector<std::string> inexact;      ///< properties whose values cannot be said exactly
-  std::vector<std::string> set;  ///< properties that a new module has another value of, so that
-                                 ///< what was keyed on the one before plays on
-  std::size_t orphans = 0;      ///< properties that remain without a node
-  std::size_t new_orphans = 0;  ///< that had one before
+  /// Properties that a new module has another value of, so that what was keyed on the one before
+  /// plays on.
+  std::vector<std::string> set;
+  std::size_t orphans = 0;         ///< properties that remain without a node
+  std::size_t new_orphans = 0;     ///< that had one before
+  std::size_t baked_channels = 0;  ///< on joints, which a bake made for the old rig
 };
 
 /// Compares in one clip.
@@ -107,6 +109,7 @@ class Carrier {
   std::vector<int> orphans_;             ///< by source: index in fresh_.orphans, -1
   std::vector<Move> moves_;
   std::map<std::string, std::size_t> changed_;  ///< by description: index in report_.changed
+  std::set<std::pair<std::size_t, std::string>> implied_;  ///< source and attribute: see succeed()
   std::optional<update::Remap> remap_;
   CarryReport report_;
 };

@@ -18,7 +18,6 @@ namespace {
 
 constexpr std::uint64_t kLargestCopy = std::uint64_t{4} << 30;
 
-
 /// Gathers what is to be copied: nothing where a file lies on its place, or where it was missing
 /// already. False where another file lies there.
 class Copies {

@@ -8,10 +8,11 @@
 
 #include "base/files.h"
 #include "base/text.h"
-#include "pipeline/codes.h"
 #include "pipeline/merge_codes.h"
+#include "pipeline/place_again.h"
 #include "pipeline/update_codes.h"
 #include "tags/settings.h"
+#include "templates/arguments.h"
 
 namespace rigc::pipeline {
 namespace {
@@ -62,6 +63,24 @@ bool add_settings(const RebuildRequest& request, tags::Settings& settings,
   return good;
 }
 
+/// Commands as the modules take them now. Reported: what they no longer take.
+bool upgrade_tags(const std::vector<std::pair<std::string, int>>& versions,
+                  const catalog::Catalogue& catalogue, tags::TaggedSkeleton& skeleton,
+                  Diagnostics& diagnostics) {
+  const std::map<std::string, int> by_module(versions.begin(), versions.end());
+  bool good = true;
+  for (tags::TaggedJoint& joint : skeleton.joints) {
+    for (tags::CommandTag& command : joint.commands) {
+      const auto version = by_module.find(command.module);
+      const catalog::Descriptor* descriptor = catalogue.find(command.module);
+      if (version == by_module.end() || !descriptor || version->second == descriptor->version)
+        continue;
+      good = templates::upgrade(*descriptor, version->second, command, diagnostics) && good;
+    }
+  }
+  return good;
+}
+
 /// A file that is changed in place is locked before it is read.
 bool lock_file(const FileWork& work, bool writes, std::optional<FileLock>& lock,
                Diagnostics& diagnostics) {
@@ -94,12 +113,6 @@ std::optional<Opened> open_rigs(const std::string& path, Diagnostics& diagnostic
   return Opened{*std::move(file), *std::move(rigs)};
 }
 
-bool is_fitted(const gltf::Rig& rig) {
-  const auto& joints = rig.skeleton.joints;
-  return std::any_of(joints.begin(), joints.end(),
-                     [](const tags::TaggedJoint& joint) { return joint.foreign_node >= 0; });
-}
-
 }  // namespace
 
 std::optional<Rebuilt> rebuild(const RebuildRequest& request, const FileWork& work,
@@ -117,6 +130,7 @@ std::optional<Rebuilt> rebuild(const RebuildRequest& request, const FileWork& wo
     const gltf::Rig& old = file->rigs()[index];
     NewRig next;
     next.skeleton = old.skeleton;
+    if (!upgrade_tags(old.modules, catalogue, next.skeleton, diagnostics)) return std::nullopt;
     next.settings = old.settings;
     next.skeleton_only = request.unbuild;
     if (!add_settings(request, next.settings, diagnostics)) return std::nullopt;
@@ -142,13 +156,14 @@ std::optional<Removed> strip(const std::vector<std::string>& rigs, const FileWor
   if (!opened) return std::nullopt;
   const auto chosen = choose(opened->rigs, rigs, work.input, diagnostics);
   if (!chosen) return std::nullopt;
+  if (!keep_original(work, opened->file.whole, diagnostics)) return std::nullopt;
   Removed out;
   std::vector<gltf::Rig> models, characters;
   for (const std::size_t index : *chosen) {
     const gltf::Rig& rig = opened->rigs[index];
     out.rigs.push_back(rig.skeleton.global);
     out.orphans += rig.orphans.size();
-    (is_fitted(rig) ? models : characters).push_back(rig);
+    (is_fitted(rig.skeleton) ? models : characters).push_back(rig);
   }
   gltf::Patch patch(opened->file);
   std::set<int> gone;
@@ -184,6 +199,7 @@ std::optional<Removed> prune(const std::vector<std::string>& rigs, const FileWor
     replacements.push_back({&rig, &next, gltf::own_nodes(rig), diagnostics.sources()});
   }
   if (replacements.empty()) return out;
+  if (!keep_original(work, opened->file.whole, diagnostics)) return std::nullopt;
   gltf::Patch patch(opened->file);
   if (!gltf::replace_rigs(patch, opened->file, replacements, diagnostics)) return std::nullopt;
   out.channels = gltf::drop_channels(patch, opened->file, gone);

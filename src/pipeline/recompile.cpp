@@ -135,7 +135,9 @@ bool Recompilation::compile(std::size_t index, NewRig next, const catalog::Catal
   compiled->fresh = *std::move(fresh);
   update::Options remap;
   remap.keep_local = options.keep_local;
-  remap.changes = std::move(next.changes);
+  for (const auto& [module, version] : old.modules)
+    if (const catalog::Descriptor* descriptor = catalogue.find(module))
+      remap.changes[module] = catalog::attribute_changes(*descriptor, version);
   compiled->carrier = std::make_unique<Carrier>(old, compiled->fresh, clips_, animated_, catalogue,
                                                 std::move(remap));
   compiled->carrier->run();
@@ -149,11 +151,18 @@ bool Recompilation::compile(std::size_t index, NewRig next, const catalog::Catal
   if (options.tolerance_mm &&
       !check_tolerance(file_->path, report, *options.tolerance_mm, diagnostics))
     return false;
+  const Largest largest = largest_difference(report);
+  if (report.carry.baked_channels > 0 && (largest.mm > 0 || largest.degrees > 0))
+    diagnostics.report(codes::kStaleBake, Place(file_->path),
+                       fmt::format("{} channels on joints were baked from the old rig \"{}\"",
+                                   report.carry.baked_channels, printable(report.global)),
+                       "`rigc bake --keep-rig` makes them again");
   compiled_.push_back(std::move(compiled));
   return true;
 }
 
 bool Recompilation::write(const FileWork& work, std::uint64_t& bytes, Diagnostics& diagnostics) {
+  if (!keep_original(work, file_->whole, diagnostics)) return false;
   gltf::Patch patch(*file_);
   std::vector<gltf::Replacement> replacements;
   for (const auto& compiled : compiled_)

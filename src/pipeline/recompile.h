@@ -26,8 +26,7 @@ struct CarryOptions {
 struct NewRig {
   tags::TaggedSkeleton skeleton;  ///< tags as declared, placed
   tags::Settings settings;
-  bool skeleton_only = false;                                           ///< no command runs
-  std::map<std::string, std::vector<update::AttributeChange>> changes;  ///< by module
+  bool skeleton_only = false;  ///< no command runs
 };
 
 struct RigReport {

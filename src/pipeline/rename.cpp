@@ -71,7 +71,7 @@ class Renaming {
 
   void run(const Value& rig, Renamed& counts) {
     if (set_name(rig["global"])) ++counts.rigs;
-    for (const char* list : {"nodes", "joints"})
+    for (const char* list : {"nodes", "joints", "orphans"})
       for (const Value& item : rig[list].items()) set_name(item["global"]);
     rename_arguments(rig, counts);
   }

@@ -38,6 +38,7 @@ std::optional<std::vector<FileStatus>> status(const StatusRequest& request,
   auto inputs = find_inputs(request.inputs, {}, diagnostics);
   if (!add_modules(request.paths, catalogue, diagnostics) || !inputs) return std::nullopt;
   const Installed installed(templates::template_folders(request.paths.templates), catalogue);
+  if (!installed.versions().check_readable(diagnostics)) return std::nullopt;
   installed.versions().report_twins(diagnostics);
 
   std::vector<FileStatus> files;

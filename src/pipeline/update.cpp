@@ -8,7 +8,7 @@
 
 #include "base/files.h"
 #include "base/text.h"
-#include "gltf/skeletons.h"
+#include "pipeline/place_again.h"
 #include "pipeline/update_codes.h"
 #include "tags/settings.h"
 #include "templates/expand.h"
@@ -25,51 +25,6 @@ bool same_templates(const std::vector<tags::TemplateReference>& a,
                     [](const tags::TemplateReference& x, const tags::TemplateReference& y) {
                       return x.name == y.name && x.version == y.version && x.digest == y.digest;
                     });
-}
-
-templates::Bindings bindings_of(const TaggedSkeleton& skeleton) {
-  templates::Bindings out;
-  for (const tags::TaggedJoint& joint : skeleton.joints) {
-    if (joint.foreign_node >= 0)
-      out.nodes.emplace(joint.key, joint.foreign_node);
-    else
-      out.made.insert(joint.key);
-  }
-  return out;
-}
-
-bool is_fitted(const TaggedSkeleton& skeleton) {
-  return std::any_of(skeleton.joints.begin(), skeleton.joints.end(),
-                     [](const tags::TaggedJoint& joint) { return joint.foreign_node >= 0; });
-}
-
-/// The skeleton of a file that has the rig's bones.
-const tags::ForeignSkeleton* skeleton_of(const std::vector<tags::ForeignSkeleton>& skeletons,
-                                         const TaggedSkeleton& rig) {
-  std::set<int> nodes;
-  for (const tags::TaggedJoint& joint : rig.joints)
-    if (joint.foreign_node >= 0) nodes.insert(joint.foreign_node);
-  const tags::ForeignSkeleton* best = nullptr;
-  std::size_t most = 0;
-  for (const tags::ForeignSkeleton& skeleton : skeletons) {
-    std::size_t shared = 0;
-    for (const tags::ForeignJoint& joint : skeleton.joints) shared += nodes.count(joint.node);
-    if (shared <= most) continue;
-    most = shared;
-    best = &skeleton;
-  }
-  return best;
-}
-
-bool has_new_joints(const templates::Expanded& expanded, const templates::Bindings& known) {
-  return std::any_of(
-      expanded.joints.begin(), expanded.joints.end(), [&](const templates::ExpandedJoint& joint) {
-        const auto is_known = [&](const JointKey& key) {
-          return known.nodes.count(key) != 0 || known.made.count(key) != 0;
-        };
-        const auto& was = joint.tagged.was;
-        return !is_known(joint.tagged.key) && std::none_of(was.begin(), was.end(), is_known);
-      });
 }
 
 /// What a local group of the old skeleton is called now: a part has another name, and its joints
@@ -145,46 +100,14 @@ std::string quoted(const std::string& text) { return "\"" + printable(text, 60) 
 
 }  // namespace
 
-std::optional<TaggedSkeleton> place_again(const templates::Expanded& expanded,
-                                          const gltf::File& file, const gltf::Rig& old,
-                                          const std::vector<templates::Map>& maps,
-                                          bool take_skeleton, Diagnostics& diagnostics) {
-  std::optional<TaggedSkeleton> fresh;
-  if (!is_fitted(old.skeleton)) {
-    fresh = templates::place(expanded, diagnostics);
-  } else {
-    const auto skeletons = gltf::read_skeletons(file, old.settings.rest, diagnostics);
-    if (!skeletons) return std::nullopt;
-    const tags::ForeignSkeleton* skeleton = skeleton_of(*skeletons, old.skeleton);
-    if (!skeleton) {
-      diagnostics.report(codes::kModelGone, Place(file.path),
-                         fmt::format("no skeleton of the file has the joints of rig {}",
-                                     quoted(old.skeleton.global)));
-      return std::nullopt;
-    }
-    const templates::Bindings known = bindings_of(old.skeleton);
-    templates::Map map;
-    if (has_new_joints(expanded, known)) {
-      const auto trials = templates::try_maps(maps, expanded, *skeleton);
-      if (!trials.empty()) map = *trials.front().map;
-    }
-    // What there is to warn of in the fit was said when the rig was built.
-    Diagnostics fitting(diagnostics.sources());
-    templates::FitReport report;
-    fresh = templates::fit(expanded, *skeleton, map, report, fitting, &known);
-    if (!fresh) diagnostics.append(fitting);
-  }
-  if (fresh && !take_skeleton) update::keep_placements(*fresh, old.skeleton);
-  return fresh;
-}
-
 std::unique_ptr<Updater> Updater::make(const UpdateSettings& settings, Diagnostics& diagnostics) {
   std::unique_ptr<Updater> out(new Updater(settings));
   if (!add_modules(settings.paths, out->catalogue_, diagnostics)) return nullptr;
   out->folders_ = templates::template_folders(settings.paths.templates);
-  out->versions_.emplace(out->folders_);
+  out->installed_ = std::make_unique<Installed>(out->folders_, out->catalogue_);
+  if (!out->installed_->versions().check_readable(diagnostics)) return nullptr;
   if (!settings.to.empty()) {
-    const auto path = out->versions_->resolve(settings.to, diagnostics);
+    const auto path = out->installed_->versions().resolve(settings.to, diagnostics);
     if (!path) return nullptr;
     out->to_ = *path;
     const Loaded* loaded = out->load(*path);
@@ -227,58 +150,63 @@ bool Updater::find_step(const std::string& path, const std::string& global,
                         const std::vector<std::pair<std::string, int>>& modules, Step& step,
                         Diagnostics& diagnostics) const {
   if (!concerns(global) || templates.empty()) return true;
-  const tags::TemplateReference& main = templates.front();
-  std::string file = to_;
-  if (file.empty()) {
-    const templates::TemplateVersion* newest = versions_->newest(main.name);
-    if (!newest) {
+  const Assessment assessment = installed_->assess(templates, modules);
+  const std::vector<std::size_t> mains = main_templates(templates);
+  std::vector<std::string> files;
+  for (const std::size_t main : mains) {
+    const TemplateStatus& status = assessment.templates[main];
+    files.push_back(main == 0 && !to_.empty() ? to_ : status.path);
+    if (!files.back().empty() && (status.state != TemplateState::older || files.back() == to_))
+      continue;
+    if (status.state != TemplateState::older) {
       diagnostics.report(codes::kTemplateLost, Place(path),
                          fmt::format("rig {} was made by template {} version {}, which is in none "
                                      "of the template folders",
-                                     quoted(global), quoted(main.name), main.version),
+                                     quoted(global), quoted(status.name), status.version),
                          "--templates DIR adds a folder; --to TEMPLATE names the one to follow");
       return false;
     }
-    if (newest->version < main.version) {
-      diagnostics.report(
-          codes::kOlderOnly, Place(path),
-          fmt::format("rig {} was made by version {} of template {}; the newest found is {}",
-                      quoted(global), main.version, quoted(main.name), newest->version),
-          fmt::format("--to {}@{} goes back", printable(main.name), newest->version));
-      return true;
+    diagnostics.report(
+        codes::kOlderOnly, Place(path),
+        fmt::format("rig {} was made by version {} of template {}; the newest found is {}",
+                    quoted(global), status.version, quoted(status.name), status.found),
+        fmt::format("--to {}@{} goes back", printable(status.name), status.found));
+    return true;
+  }
+  step.why = assessment.reason;
+  if (to_.empty() && !assessment.needs_update() && !settings_.take_skeleton) return true;
+  for (const std::string& file : files) {
+    const Loaded* loaded = load(file);
+    if (!loaded->expanded) {
+      diagnostics.append(loaded->diagnostics);
+      return false;
     }
-    file = newest->path;
+    step.mains.push_back(loaded);
   }
-  const Loaded* loaded = load(file);
-  if (!loaded->expanded) {
-    diagnostics.append(loaded->diagnostics);
-    return false;
-  }
-  const TaggedSkeleton& next = loaded->expanded->skeleton;
-  const tags::TemplateReference& now = next.templates.front();
-  if (now.name != main.name)
-    step.why = "another template";
-  else if (now.version != main.version)
-    step.why = "another version";
-  else if (!same_templates(next.templates, templates))
-    step.why = "changed content";
-  for (const auto& [name, version] : modules) {
-    const catalog::Descriptor* descriptor = catalogue_.find(name);
-    if (step.why.empty() && (!descriptor || descriptor->version != version))
-      step.why = "changed modules";
-  }
-  if (!step.why.empty() || settings_.take_skeleton) step.loaded = loaded;
+  if (to_.empty()) return true;
+  const std::vector<tags::TemplateReference>& now =
+      step.mains.front()->expanded->skeleton.templates;
+  step.why = now.front().name != templates.front().name         ? "another template"
+             : now.front().version != templates.front().version ? "another version"
+                                                                : "changed content";
+  const bool same_modules =
+      std::all_of(assessment.modules.begin(), assessment.modules.end(),
+                  [](const ModuleStatus& module) { return module.state == ModuleState::current; });
+  if (mains.size() == 1 && same_modules && same_templates(now, templates) &&
+      !settings_.take_skeleton)
+    step.mains.clear();
   return true;
 }
 
 std::optional<NewRig> Updater::next_rig(const Recompilation& file, const gltf::Rig& old,
-                                        const Loaded& loaded, RigReport& report,
+                                        const Step& step, RigReport& report,
                                         Diagnostics& diagnostics) const {
-  auto skeleton = place_again(*loaded.expanded, file.file(), old,
+  std::vector<const templates::Expanded*> mains;
+  for (const Loaded* loaded : step.mains) mains.push_back(&*loaded->expanded);
+  auto skeleton = place_again(mains, file.file(), old,
                               is_fitted(old.skeleton) ? maps() : std::vector<templates::Map>(),
                               settings_.take_skeleton, diagnostics);
   if (!skeleton) return std::nullopt;
-  tags::set_global(*skeleton, old.skeleton.global);
   NewRig next;
   next.settings = known_settings(renamed_settings(old.settings, *skeleton, old.skeleton), *skeleton,
                                  report.dropped_settings);
@@ -306,7 +234,7 @@ FileResult Updater::update(const FileWork& work, Diagnostics& diagnostics) const
     named = named || concerns(rig.global);
     Step step;
     good = find_step(work.input, rig.global, rig.templates, rig.modules, step, diagnostics) && good;
-    concerned = concerned || step.loaded;
+    concerned = concerned || !step.mains.empty();
   }
   if (!good) return result;
   if (!concerned) {
@@ -327,17 +255,17 @@ FileResult Updater::update(const FileWork& work, Diagnostics& diagnostics) const
     const auto& made_by = old.skeleton.templates;
     if (!find_step(work.input, old.skeleton.global, made_by, old.modules, step, reading))
       return result;
-    if (!step.loaded) continue;
+    if (step.mains.empty()) continue;
     RigReport& report = reports.emplace_back();
-    const tags::TemplateReference& now = step.loaded->expanded->skeleton.templates.front();
+    const tags::TemplateReference& now = step.mains.front()->expanded->skeleton.templates.front();
     report.why = step.why;
     report.template_before = made_by.front().name;
     report.version_before = made_by.front().version;
     report.template_name = now.name;
     report.version = now.version;
     // What is written names lines of the template: they are in its sources.
-    Diagnostics building(step.loaded->diagnostics.sources());
-    auto next = next_rig(*file, old, *step.loaded, report, building);
+    Diagnostics building(step.mains.front()->diagnostics.sources());
+    auto next = next_rig(*file, old, step, report, building);
     const bool built =
         next && file->compile(i, *std::move(next), catalogue_, settings_, report, building);
     diagnostics.append(building);

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "gltf/rig_summary.h"
+#include "pipeline/assess.h"
 #include "pipeline/batch.h"
 #include "pipeline/environment.h"
 #include "pipeline/recompile.h"
 #include "templates/library.h"
 #include "templates/map.h"
-#include "templates/versions.h"
 
 namespace rigc::pipeline {
 
@@ -43,9 +43,9 @@ class Updater {
     Diagnostics diagnostics;
     std::optional<templates::Expanded> expanded;
   };
-  /// What is to be done with a rig.
+  /// What is to be done with a rig. Rigs that were joined have several main templates.
   struct Step {
-    const Loaded* loaded = nullptr;  ///< null: nothing
+    std::vector<const Loaded*> mains;  ///< by main template of the rig; empty: nothing
     std::string why;
   };
 
@@ -57,25 +57,17 @@ class Updater {
                  Diagnostics& diagnostics) const;
   bool concerns(const std::string& global) const;
   const std::vector<templates::Map>& maps() const;
-  std::optional<NewRig> next_rig(const Recompilation& file, const gltf::Rig& old,
-                                 const Loaded& loaded, RigReport& report,
-                                 Diagnostics& diagnostics) const;
+  std::optional<NewRig> next_rig(const Recompilation& file, const gltf::Rig& old, const Step& step,
+                                 RigReport& report, Diagnostics& diagnostics) const;
 
   UpdateSettings settings_;
   catalog::Catalogue catalogue_;
   std::vector<std::string> folders_;
-  std::optional<templates::Versions> versions_;
+  std::unique_ptr<Installed> installed_;
   std::string to_;  ///< path
   mutable std::mutex mutex_;
   mutable std::map<std::string, std::unique_ptr<Loaded>> loaded_;  ///< by path
   mutable std::optional<std::vector<templates::Map>> maps_;
 };
-
-/// Joints of a fresh skeleton on a character that has been rigged: placed as the old rig's, or
-/// fitted to the same bones of its model. `maps`: for joints that are new.
-std::optional<tags::TaggedSkeleton> place_again(const templates::Expanded& expanded,
-                                                const gltf::File& file, const gltf::Rig& old,
-                                                const std::vector<templates::Map>& maps,
-                                                bool take_skeleton, Diagnostics& diagnostics);
 
 }  // namespace rigc::pipeline

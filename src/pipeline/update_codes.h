@@ -32,7 +32,13 @@ inline constexpr Code kModelGone{
     887, Severity::error, "the model's skeleton is not found",
     "The rig was fitted to joints of the model that no skeleton of the file has any more."};
 
-inline constexpr const Code* kUpdateCodes[] = {
-    &kNoRigHere, &kWouldOrphan, &kMoves, &kTemplateLost, &kOlderOnly, &kSettingGone, &kModelGone};
+inline constexpr Code kStaleBake{
+    889, Severity::warning, "baked keys are of the old rig",
+    "The file has keys on joints that `rigc bake --keep-rig` made, and joints move otherwise now. "
+    "Bake it again; keys on controls are what counts."};
+
+inline constexpr const Code* kUpdateCodes[] = {&kNoRigHere,    &kWouldOrphan, &kMoves,
+                                               &kTemplateLost, &kOlderOnly,   &kSettingGone,
+                                               &kModelGone,    &kStaleBake};
 
 }  // namespace rigc::pipeline::codes

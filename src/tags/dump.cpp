@@ -65,8 +65,8 @@ void dump_joint(const TaggedSkeleton& skeleton, const TaggedJoint& joint, std::s
 std::string dump(const TaggedSkeleton& skeleton) {
   std::string out = fmt::format("skeleton {} global {}\n", skeleton.name, skeleton.global);
   for (const TemplateReference& reference : skeleton.templates)
-    out += fmt::format("template {} {} {} {}\n", reference.name, reference.version, reference.file,
-                       reference.digest);
+    out += fmt::format("template {} {} {} {}{}\n", reference.name, reference.version,
+                       reference.file, reference.digest, reference.main ? " main" : "");
   for (const auto& [module, version] : skeleton.module_pins)
     out += fmt::format("module {} {}\n", module, version);
   for (const FeatureDeclaration& feature : skeleton.features)

@@ -29,13 +29,19 @@ bool is_path(const std::string& text) {
 /// Walks template folders. A folder that several links lead to is visited once.
 class Walk {
  public:
-  explicit Walk(std::vector<TemplateVersion>& out) : out_(out) {}
+  Walk(std::vector<TemplateVersion>& out, Diagnostics& refused) : out_(out), refused_(refused) {}
 
   void visit(const std::string& folder, std::size_t place, bool part = false, int depth = 0) {
     std::error_code error;
-    const auto real = std::filesystem::canonical(folder.empty() ? "." : folder, error);
-    if (error || depth > kMostDeep || !visited_.insert(real).second) return;
-    for (const std::string& name : list_folder(folder.empty() ? "." : folder)) {
+    const std::string path_of_folder = folder.empty() ? "." : folder;
+    const auto real = std::filesystem::canonical(path_of_folder, error);
+    const bool is_missing =
+        error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory;
+    if (is_missing || depth > kMostDeep) return;
+    if (!error && !visited_.insert(real).second) return;
+    const auto names = list_folder(path_of_folder, refused_);
+    if (!names) return;
+    for (const std::string& name : *names) {
       if (name.starts_with('.') || files_ == kMostFiles) continue;
       const std::string path = join_path(folder, name);
       if (ends_with(name, ".yaml")) {
@@ -49,8 +55,14 @@ class Walk {
 
  private:
   void add(const std::string& path, std::size_t place, bool part) {
-    Diagnostics quiet;  // who opens the file is told what is wrong with it
-    const auto text = file_exists(path) ? read_file(path, kMostBytes, quiet) : std::nullopt;
+    Diagnostics reading;
+    const auto text = read_file(path, kMostBytes, reading);
+    // Folders, links to nowhere and what is too large are no templates.
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    const bool is_other = status.type() == std::filesystem::file_type::not_found ||
+                          (std::filesystem::status_known(status) && !is_regular_file(status));
+    if (reading.file_system_refused() && !is_other) refused_.append(reading);
     auto head = text ? scan_head(*text) : std::nullopt;
     if (!head) return;
     out_.push_back({std::move(head->name), head->version, std::move(head->was),
@@ -58,6 +70,7 @@ class Walk {
   }
 
   std::vector<TemplateVersion>& out_;
+  Diagnostics& refused_;
   std::set<std::filesystem::path> visited_;
   std::size_t files_ = 0;
 };
@@ -79,7 +92,7 @@ std::pair<std::string_view, std::optional<int>> name_and_version(std::string_vie
 }  // namespace
 
 Versions::Versions(const std::vector<std::string>& folders) {
-  Walk walk(all_);
+  Walk walk(all_, refused_);
   for (std::size_t i = 0; i < folders.size(); ++i) walk.visit(folders[i], i);
   std::sort(all_.begin(), all_.end(),
             [](const TemplateVersion& a, const TemplateVersion& b) { return order(a) < order(b); });
@@ -132,6 +145,11 @@ std::optional<std::string> Versions::resolve(const std::string& wanted,
                      fmt::format("there is no template \"{}\"", printable(wanted, 100)),
                      suggest(wanted, known));
   return std::nullopt;
+}
+
+bool Versions::check_readable(Diagnostics& diagnostics) const {
+  diagnostics.append(refused_);
+  return refused_.ok();
 }
 
 void Versions::report_twins(Diagnostics& diagnostics) const {

@@ -62,6 +62,10 @@ class Versions {
   /// them counts is chance.
   void report_twins(Diagnostics& diagnostics) const;
 
+  /// False, and reported, where the system refused to list a folder or to read a file that is
+  /// there: the newest version may be among them.
+  bool check_readable(Diagnostics& diagnostics) const;
+
   /// Sorted by name, then parts last, newest first, then in the order of the folders and paths.
   const std::vector<TemplateVersion>& all() const& { return all_; }
   void all() && = delete;
@@ -73,6 +77,7 @@ class Versions {
   Run run_of(std::string_view name) const;
 
   std::vector<TemplateVersion> all_;
+  Diagnostics refused_;
 };
 
 }  // namespace rigc::templates

@@ -43,8 +43,9 @@ Mat3 times(const Mat3& m, double s) { return {m.x * s, m.y * s, m.z * s}; }
 
 bool near(const math::Trs& a, const math::Trs& b) {
   const Vec3 moved = a.translation - b.translation, scaled = a.scale - b.scale;
+  const Quat turned = conjugate(a.rotation) * b.rotation;
   return math::length(moved) < kRounding && math::length(scaled) < kRounding &&
-         1 - std::abs(math::dot(a.rotation, b.rotation)) < kRounding * kRounding;
+         math::length({turned.x, turned.y, turned.z}) < kRounding;
 }
 
 }  // namespace

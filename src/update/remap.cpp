@@ -73,7 +73,7 @@ Destination Remap::find(std::size_t index, const Property& property) const {
   out.attribute = property.attribute;
   const auto changes = options_.changes.find(fresh_[node].module);
   if (changes != options_.changes.end()) {
-    for (const AttributeChange& change : changes->second) {
+    for (const catalog::AttributeChange& change : changes->second) {
       if (change.was != out.attribute) continue;
       out.attribute = change.name;
       out.offset = out.offset * change.factor + change.offset;

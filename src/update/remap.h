@@ -10,16 +10,11 @@
 #include <vector>
 
 #include "anim/clip.h"
+#include "catalog/changes.h"
 #include "update/convert.h"
 #include "update/match.h"
 
 namespace rigc::update {
-
-/// What a module's newer version did to an attribute of its nodes.
-struct AttributeChange {
-  std::string was, name;
-  double factor = 1, offset = 0;  ///< new value = old value * factor + offset
-};
 
 /// A property of a node: its translation, rotation, scale, or an attribute of a user.
 struct Property {
@@ -42,7 +37,8 @@ struct Destination {
 
 struct Options {
   bool keep_local = false;  ///< keys stay as they are where a zero has turned
-  std::map<std::string, std::vector<AttributeChange>> changes;  ///< by module of the new rig
+  std::map<std::string, std::vector<catalog::AttributeChange>>
+      changes;  ///< by module of the new rig
 };
 
 class Remap {

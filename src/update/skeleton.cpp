@@ -78,17 +78,29 @@ class Keeper {
     const auto parent = static_cast<std::size_t>(root ? 0 : joint.parent);
     const int from = from_[index];
     const auto spread = spread_.find(index);
-    if (spread == spread_.end() && from >= 0) {
-      const TaggedJoint& before = old_.joints[static_cast<std::size_t>(from)];
-      same_[index] = root ? before.parent < 0 : same_[parent] && before.parent == from_[parent];
-      if (same_[index]) joint.rest = before.rest;
-    }
-    if (!same_[index] && (from >= 0 || spread != spread_.end())) {
+    const bool keeps = spread == spread_.end() && from >= 0;
+    const int before = keeps ? old_.joints[static_cast<std::size_t>(from)].parent : -1;
+    if (keeps && (root ? before < 0 : same_[parent] && before == from_[parent])) {
+      joint.rest = old_.joints[static_cast<std::size_t>(from)].rest;
+    } else if (from >= 0 || spread != spread_.end()) {
       const Affine& world = spread != spread_.end() ? spread->second : old_world(from);
       joint.rest = math::decompose(root ? world : math::inverse(worlds_[parent]) * world);
     }
     const Affine local = math::compose(joint.rest);
     worlds_.push_back(root ? local : worlds_[parent] * local);
+    same_[index] = keeps && near(worlds_.back(), old_world(from));
+  }
+
+  /// The same but for rounding.
+  bool near(const Affine& a, const Affine& b) const {
+    const auto within = [](const Vec3& p, const Vec3& q, double size) {
+      return math::length(p - q) <= 1e-12 * size;
+    };
+    const double size = std::max(old_.character.height, math::length(b.origin));
+    return within(a.origin, b.origin, size) &&
+           within(a.linear.x, b.linear.x, math::length(b.linear.x)) &&
+           within(a.linear.y, b.linear.y, math::length(b.linear.y)) &&
+           within(a.linear.z, b.linear.z, math::length(b.linear.z));
   }
 
   /// Worlds of the joints of chains that have become longer or shorter.
@@ -132,7 +144,7 @@ class Keeper {
   const TaggedSkeleton& old_;
   std::vector<int> from_;
   std::vector<Affine> old_worlds_, worlds_;
-  std::vector<bool> same_;  ///< by joint of `fresh`: it and all above it are as they were
+  std::vector<bool> same_;  ///< by joint of `fresh`: it stands where it stood
   std::map<std::size_t, Affine> spread_;
 };
 

@@ -14,10 +14,10 @@ namespace rigc::update {
 /// was; -1: none. No joint of `old` is given twice.
 std::vector<int> counterparts(const tags::TaggedSkeleton& fresh, const tags::TaggedSkeleton& old);
 
-/// Puts joints where their counterparts stand in rig space, bit for bit where the joints above them
-/// are the same. New joints keep their transform below their parent. A chain with another number of
-/// joints is spread along the old one, from its first to its last joint. The character (up, height)
-/// becomes the old one.
+/// Puts joints where their counterparts stand in rig space, with the same transform where they hang
+/// on the same joint. New joints keep their transform below their parent. A chain with another
+/// number of joints is spread along the old one, from its first to its last joint. The character
+/// (up, height) becomes the old one.
 void keep_placements(tags::TaggedSkeleton& fresh, const tags::TaggedSkeleton& old);
 
 }  // namespace rigc::update

@@ -22,6 +22,7 @@ std::vector<std::pair<const Command*, std::string>> replacements() {
     if (command.name == "append") found.push_back({&command, "b.glb"});
     if (command.name == "bake_glb") found.push_back({&command, "a.glb"});
     if (command.name == "bake_gltf") found.push_back({&command, "a.gltf"});
+    if (command.name.starts_with("update")) found.push_back({&command, command.target});
   }
   return found;
 }
@@ -44,10 +45,6 @@ TEST_CASE("faults: what another program does to a file before it is replaced is 
     CAPTURE(command->name);
     const Stage stage(*command);
     const auto calls = calls_of(stage);
-    if (calls.empty()) {
-      MESSAGE("left out: no library can be preloaded into " << command->binary);
-      return;
-    }
     const std::size_t last = rename_of(calls, file);
     REQUIRE(last < calls.size());
     const std::string path = stage.path() / file;

@@ -16,6 +16,8 @@ namespace rigc::test {
 
 namespace fs = std::filesystem;
 
+fs::path faults_folder() { return fs::path(RIGC_TEST_OUT) / "faults/broken"; }
+
 namespace {
 
 std::string named(const char* variable) {
@@ -54,6 +56,21 @@ Command append_command() {
   return command;
 }
 
+/// A rig, and its template as the next version.
+Command update_command(const std::string& rig) {
+  Command command{"update_" + rig.substr(2), rigc_binary(), {}, rig, built(rig), {}};
+  std::string text = file_text(source_folder() / "templates/biped.yaml");
+  const std::string key = "\nversion: ";
+  const std::size_t at = text.find(key);
+  REQUIRE(at != std::string::npos);
+  text.insert(at + key.size(), "9");
+  command.before["templates/biped.yaml"] = text;
+  command.arguments = {"update",      "@/" + rig,    "--templates",
+                       "@/templates", "--templates", (source_folder() / "templates").string(),
+                       "--backup",    "@/backup"};
+  return command;
+}
+
 std::vector<Command> make_commands() {
   const std::string rigc = rigc_binary();
   const std::string biped = (source_folder() / "templates/biped.yaml").string();
@@ -65,6 +82,8 @@ std::vector<Command> make_commands() {
       {"bake_glb", rigc, {"bake", "@/a.glb", "-o", "@/a.glb"}, "a.glb", built("a.glb"), {}});
   list.push_back(
       {"bake_gltf", rigc, {"bake", "@/a.gltf", "-o", "@/a.gltf"}, "", built("a.gltf"), {}});
+  list.push_back(update_command("a.glb"));
+  list.push_back(update_command("a.gltf"));
   for (Command& command : list) {
     const Stage stage(command);
     stage.reset();
@@ -166,9 +185,10 @@ std::vector<std::string> calls_of(const Stage& stage) {
   const Outcome outcome = stage.run(environment);
   const auto calls = lines_of(file_text(log));
   fs::remove(log);
-  const bool works = outcome.status == 0 && !calls.empty();
-  if (works) CHECK(stage.files() == stage.command().after);
-  return works ? calls : std::vector<std::string>();
+  REQUIRE_MESSAGE(!calls.empty(), "the shim is not preloaded into " << stage.command().binary);
+  REQUIRE(outcome.status == 0);
+  REQUIRE(stage.files() == stage.command().after);
+  return calls;
 }
 
 int count_from_environment(const char* name, int otherwise) {

@@ -60,8 +60,7 @@ std::string damage(const Command& command, const Files& files, bool leftovers);
 /// The environment that preloads the shim for a folder; `at` is the number of the call.
 Environment faulty(const std::filesystem::path& folder, int at, const std::string& kind);
 
-/// The calls that a command makes for its folder, "open /the/path"; empty where the shim cannot be
-/// preloaded.
+/// The calls that a command makes for its folder, "open /the/path".
 std::vector<std::string> calls_of(const Stage& stage);
 
 /// From the environment; else `otherwise`.

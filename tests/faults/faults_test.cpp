@@ -59,10 +59,6 @@ TEST_CASE(
     CAPTURE(command.name);
     const Stage stage(command);
     const auto calls = calls_of(stage);
-    if (calls.empty()) {
-      MESSAGE("left out: no library can be preloaded into " << command.binary);
-      return;
-    }
     std::set<std::string> names;
     for (const std::string& call : calls) names.insert(name_of_call(call));
     for (const char* needed : {"open", "write", "fsync", "rename", "close"})

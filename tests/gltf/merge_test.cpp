@@ -673,7 +673,7 @@ TEST_CASE("merge: holders of orphans follow their rig") {
   std::string text(files[1].json.text());
   text = replaced(text, R"("owned":)",
                   R"("orphans":[{"node":1,"identity":"7:00000000000000aa:00000000000000bb:c:r:0",)"
-                  R"("other":7}],"owned":)");
+                  R"("name":"lost","kind":"control","other":7}],"owned":)");
   text = replaced(text, R"({"name": "body", "mesh": 0, "skin": 0})",
                   R"({"name": "body", "mesh": 0, "skin": 0, "extras": )"
                   R"({"rigc": "orphan:7:00000000000000aa:00000000000000bb:c:r:0"}})");
@@ -686,8 +686,13 @@ TEST_CASE("merge: holders of orphans follow their rig") {
   const auto file = merged(files, diagnostics);
   REQUIRE_MESSAGE(file, render(diagnostics, false));
   CHECK(at(file->root(), "/extensions/RIGC_rig/rigs/1/orphans").text() ==
-        R"([{"node":)" + std::to_string(first + 1) +
-            R"(,"identity":"0:00000000000000aa:00000000000000bb:c:r:0","other":7}])");
+        R"([{"node":)" + std::to_string(first + 2) +
+            R"(,"identity":"0:00000000000000aa:00000000000000bb:c:r:0",)" +
+            R"("name":"lost","kind":"control","other":7}])");
+  const auto rigs = read_rigs(*file, diagnostics);
+  REQUIRE_MESSAGE(rigs, render(diagnostics, false));
+  REQUIRE(rigs->front().orphans.size() == 1);
+  CHECK(rigs->front().orphans[0].node == first + 2);
   CHECK(at(file->root(), "/nodes/" + std::to_string(first + 2) + "/extras/rigc").string() ==
         "orphan:0:00000000000000aa:00000000000000bb:c:r:0");
 }

@@ -3,7 +3,7 @@
 #include "pipeline/batch_inputs.h"
 
 #include <doctest/doctest.h>
-#include <unistd.h>
+#include <algorithm>
 
 #include "base/codes.h"
 #include "base/files_helpers.h"

@@ -90,6 +90,9 @@ Round round_trip(BuildRequest request, const std::string& name, const std::strin
   round.yaml = extract(first);
   BuildRequest again;
   again.template_file = write_text(test::test_out("extract_" + name + ".yaml"), round.yaml);
+  Diagnostics checking;
+  CHECK_MESSAGE(pipeline::check(again.template_file, again.paths, checking),
+                render(checking, false));
   again.model = model;
   again.map = request.map;
   again.rest = request.rest;

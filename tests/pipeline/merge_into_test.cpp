@@ -338,6 +338,23 @@ TEST_CASE("merge into: keys on what hangs elsewhere now are reported") {
   CHECK(join({hero, moved}, "moved", "hero", {"stick=spine.chest"}).codes == "RIG0697");
 }
 
+TEST_CASE("merge into: what stands above a joint in the file cannot hang under it") {
+  const std::string hero = build(biped(), "hero", "hero");
+  const std::string stick = build(write("stick.yaml", kStick), "stick_above");
+  Diagnostics diagnostics;
+  const std::string apart = folder() + "/above.glb";
+  REQUIRE(pipeline::merge_files({{hero, stick}, false, {}, {}, {}}, apart, diagnostics));
+  test::Character character = test::load_glb(apart);
+  auto& json = character.json;
+  const int root = rigs_of(hero)[0].nodes[0];
+  const std::size_t above = opened(hero).root()["nodes"].size();  // first joint of the stick
+  json["nodes"][above]["children"].push_back(root);
+  auto& roots = json["scenes"][0]["nodes"];
+  roots.erase(std::find(roots.begin(), roots.end(), root));
+  test::save_glb(character, apart);
+  CHECK(join({apart}, "refused", "hero", {"stick=spine.chest"}).codes == "RIG0696");
+}
+
 TEST_CASE("merge into: two rigs join a third in one go") {
   const std::string hero = build(biped(), "hero", "hero");
   std::string other = kArm;

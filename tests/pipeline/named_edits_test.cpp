@@ -316,7 +316,7 @@ TEST_CASE("named edits: a part is renamed") {
   test::write_biped(s.folder, 1);
   pipeline::BuildRequest request;
   request.template_file = s.folder + "/biped.yaml";
-  request.features = {"arm_l/proxy=off", "arm_l/fingers=off"};
+  request.features = {"arm_l/proxy=off", "arm_l_hand/fingers=off"};
   Diagnostics diagnostics;
   const auto built = pipeline::build(request, s.shot, diagnostics);
   REQUIRE_MESSAGE(built, render(diagnostics, false));
@@ -334,8 +334,8 @@ TEST_CASE("named edits: a part is renamed") {
   CHECK(report["settings_dropped"].empty());
   const tags::Settings& settings = s.after.rigs.front().settings;
   REQUIRE(settings.features.size() == 2);
-  for (const tags::Settings::Feature& feature : settings.features)
-    CHECK(feature.group == "left_arm");
+  CHECK(settings.features[0].group == "left_arm");
+  CHECK(settings.features[1].group == "left_arm_hand");
 }
 
 TEST_CASE("named edits: a template is forked") {

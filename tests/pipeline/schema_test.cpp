@@ -10,6 +10,7 @@
 
 #include "pipeline/character_helpers.h"
 #include "pipeline/codes.h"
+#include "pipeline/reference.h"
 
 namespace rigc {
 namespace {
@@ -119,6 +120,21 @@ TEST_CASE("pipeline schema: modules of a user's folder") {
   CHECK(with["properties"]["size"].contains("deprecationMessage"));
   CHECK(with["required"].empty());
   CHECK(schema_of("bounce", user_modules()) == with);
+}
+
+TEST_CASE("pipeline schema: the reference of a module tells its changes") {
+  Diagnostics diagnostics;
+  const auto text = pipeline::modules("bounce", user_modules(), false, diagnostics);
+  REQUIRE(text);
+  CHECK(text->find("  version 2: height was called size\n  version 2: turns went up to 20\n") !=
+        std::string::npos);
+  const auto json = pipeline::modules("bounce", user_modules(), true, diagnostics);
+  REQUIRE(json);
+  CHECK(Json::parse(*json)["changes"] ==
+        Json::parse(R"([{"version": 2, "parameter": "height", "was": "size"},
+                        {"version": 2, "parameter": "turns", "max_was": 20},
+                        {"version": 2, "parameter": "slope", "factor": 0.1},
+                        {"version": 3, "parameter": "floor", "default_was": ".."}])"));
 }
 
 TEST_CASE("pipeline schema: a name that is none") {

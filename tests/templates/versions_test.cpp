@@ -209,3 +209,15 @@ TEST_CASE("templates versions: references to parts are found without reading the
     CHECK(scan_parts(diagnostics.sources().text(whole->file)) == references);
   }
 }
+
+TEST_CASE("templates versions: a folder that cannot be listed is not taken for an empty one") {
+  const std::string folder = template_folder();
+  Diagnostics diagnostics;
+  // A path that is too long stands for a disk that fails: root may read everything.
+  const Versions refused({folder + "/" + std::string(300, 'x')});
+  CHECK(!refused.check_readable(diagnostics));
+  CHECK(diagnostics.file_system_refused());
+  Diagnostics none;
+  CHECK(Versions({folder, folder + "/none"}).check_readable(none));
+  CHECK(none.all().empty());
+}

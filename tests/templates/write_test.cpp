@@ -53,8 +53,9 @@ TEST_CASE("templates write: texts that YAML takes for something else are quoted"
   CHECK(yaml_text("arm_l.wrist/control#main") == "arm_l.wrist/control#main");
   CHECK(yaml_text("moves the whole body") == "moves the whole body");
   CHECK(yaml_text("+y") == "+y");
-  for (const char* text : {"", "on", "Yes", "null", "0.5", "1e3", "a: b", "a #b", "[a]", "a,b", "-a",
-                           " a", "a ", "a?", "{x}", "*", "&a", "%", "\"", "a\nb", "~", "nan"}) {
+  for (const char* text :
+       {"",   "on", "Yes", "null", "0.5", "1e3", "a: b", "a #b", "[a]",  "a,b", "-a",
+        " a", "a ", "a?",  "{x}",  "*",   "&a",  "%",    "\"",   "a\nb", "~",   "nan"}) {
     CAPTURE(text);
     CHECK(yaml_text(text).front() == '"');
     Diagnostics diagnostics;
@@ -102,11 +103,11 @@ TEST_CASE("templates write: a quaternion of length 1 stays as it is written") {
 }
 
 TEST_CASE("templates write: sides that names do not say") {
-  const tags::TaggedSkeleton skeleton = placed(
-      with_head("joints:\n  - {name: hand_l, opposite: other}\n"
-                "  - {name: hand_r, opposite: ~}\n"
-                "  - {name: other, mirrored: true, opposite: hand_l}\n"
-                "  - {name: foot_l}\n  - {name: foot_r}\n"));
+  const tags::TaggedSkeleton skeleton =
+      placed(with_head("joints:\n  - {name: hand_l, opposite: other}\n"
+                       "  - {name: hand_r, opposite: ~}\n"
+                       "  - {name: other, mirrored: true, opposite: hand_l}\n"
+                       "  - {name: foot_l}\n  - {name: foot_r}\n"));
   const auto opposite = [&](std::size_t joint) { return skeleton.joints[joint].mirror.opposite; };
   CHECK(opposite(0) == skeleton.joints[2].key);
   CHECK(opposite(1) == JointKey{});
@@ -146,16 +147,17 @@ TEST_CASE("templates write: steps that make no chain are errors") {
 }
 
 TEST_CASE("templates write: arguments by the descriptor, modules by their versions") {
-  tags::TaggedSkeleton skeleton = placed(with_head(
-      "joints:\n  - name: a\n    tags:\n"
-      "      - {command: control, with: {shape: circle, size: 0.35}}\n"
-      "      - {commands: [{command: control, id: b}]}\n"
-      "      - {on: off, commands: [{command: control, id: c, comment: 'off: now'}]}\n"));
+  tags::TaggedSkeleton skeleton = placed(
+      with_head("joints:\n  - name: a\n    tags:\n"
+                "      - {command: control, with: {shape: circle, size: 0.35}}\n"
+                "      - {commands: [{command: control, id: b}]}\n"
+                "      - {on: off, commands: [{command: control, id: c, comment: 'off: now'}]}\n"));
   const std::string text = written(skeleton);
-  CHECK(contains(text, "- command: control\n        with: {size: 0.35}\n      - command: control\n"
-                       "        id: b\n      - on: false\n        commands:\n"
-                       "          - command: control\n            id: c\n"
-                       "            comment: \"off: now\"\n"));
+  CHECK(contains(text,
+                 "- command: control\n        with: {size: 0.35}\n      - command: control\n"
+                 "        id: b\n      - on: false\n        commands:\n"
+                 "          - command: control\n            id: c\n"
+                 "            comment: \"off: now\"\n"));
   WriteOptions options;
   options.name = "case";
   options.modules = {{"control", catalogue().find("control")->version}};
@@ -165,8 +167,9 @@ TEST_CASE("templates write: arguments by the descriptor, modules by their versio
   options.name = "fork";
   options.version = 4;
   options.comments = {"one", "two"};
-  CHECK(write(skeleton, catalogue(), options)
-            .starts_with("# one\n# two\nrigc: 1\nname: fork\nwas: case\nversion: 4\nglobal: case\n"));
+  CHECK(
+      write(skeleton, catalogue(), options)
+          .starts_with("# one\n# two\nrigc: 1\nname: fork\nwas: case\nversion: 4\nglobal: case\n"));
 }
 
 TEST_CASE("templates write: hostile parents end") {
