@@ -316,7 +316,7 @@ TEST_CASE("named edits: a part is renamed") {
   test::write_biped(s.folder, 1);
   pipeline::BuildRequest request;
   request.template_file = s.folder + "/biped.yaml";
-  request.features = {"arm_l/proxy=off", "arm_l_hand/fingers=off"};
+  request.features = {"arm_l/proxy=off", "arm_l_hand_index/fingers=off"};
   Diagnostics diagnostics;
   const auto built = pipeline::build(request, s.shot, diagnostics);
   REQUIRE_MESSAGE(built, render(diagnostics, false));
@@ -335,7 +335,7 @@ TEST_CASE("named edits: a part is renamed") {
   const tags::Settings& settings = s.after.rigs.front().settings;
   REQUIRE(settings.features.size() == 2);
   CHECK(settings.features[0].group == "left_arm");
-  CHECK(settings.features[1].group == "left_arm_hand");
+  CHECK(settings.features[1].group == "left_arm_hand_index");
 }
 
 TEST_CASE("named edits: a template is forked") {

@@ -44,7 +44,8 @@ pipeline::Rebuilt unbuild(const std::string& path) {
 
 void biped(Story& story, unsigned seed) {
   test::write_biped(story.folder, 1);
-  story.build("biped.yaml", seed, {2, 0.5, 0.3, 4});
+  // The rig drives the scale of its root: keys there play nothing, and would wait for ever.
+  story.build("biped.yaml", seed, {2, 0.5, 0.3, 4, 0});
 }
 
 /// The same keys, values and motion, bit for bit.
@@ -311,7 +312,7 @@ TEST_CASE("strip: joints of a character that came from a template remain") {
   for (const tags::TaggedJoint& joint : s.original.rigs.front().skeleton.joints)
     CHECK(std::find(names.begin(), names.end(), joint.name) != names.end());
   CHECK(test::bytes_of(s.shot).find("RIGC_rig") == std::string::npos);
-  CHECK(test::bytes_of(s.shot).find("\"rigc\":") == std::string::npos);
+  CHECK(test::bytes_of(s.shot).find("\"rigc\":\"") == std::string::npos);
   for (const anim::Clip& clip : bare.clips) CHECK(clip.channels.empty());
 }
 
