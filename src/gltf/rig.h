@@ -142,6 +142,10 @@ struct Replacement {
 /// By scene node: its glTF node where that is the rig's own and no joint of the model; else -1.
 std::vector<int> own_nodes(const Rig& rig);
 
+/// glTF nodes of a rig, and its orphans', to which others have added extras, extensions or the
+/// like.
+std::set<int> nodes_with_additions(const File& file, const Rig& rig);
+
 /// Takes rigs out and writes their successors. A node that takes over one of the old rig keeps its
 /// index and whatever others added to it: children, extras, extensions. Nodes that skins of others
 /// use or that carry something of others stay. False where a rig cannot be written.

@@ -44,6 +44,11 @@ void read_attributes(const json::Value& item, JsonReader& reader, Orphan& orphan
     if (!known || !is_name(attribute.name) || attribute.name == "rigc")
       return reader.fail(codes::kRigText, entry,
                          fmt::format("\"{}\" is no attribute", printable(attribute.name)));
+    const auto& known_ones = orphan.attributes;
+    if (std::any_of(known_ones.begin(), known_ones.end(),
+                    [&](const auto& one) { return one.name == attribute.name; }))
+      return reader.fail(codes::kRigDuplicate, entry,
+                         fmt::format("the orphan has two attributes \"{}\"", attribute.name));
     attribute.flavour = *known;
     reader.get(entry, "initial", attribute.initial);
     orphan.attributes.push_back(std::move(attribute));

@@ -76,6 +76,21 @@ std::map<int, Additions> find_additions(const std::vector<Value>& nodes, const R
 
 }  // namespace
 
+std::set<int> nodes_with_additions(const File& file, const Rig& rig) {
+  const auto nodes = file.root()["nodes"].items();
+  const Own own{std::vector<bool>(nodes.size(), true), rig};  // children do not count
+  std::set<int> out;
+  const auto look_at = [&](int node, const std::vector<scene::UserAttribute>& attributes) {
+    if (node < 0) return;
+    const Additions found =
+        additions_to(nodes[static_cast<std::size_t>(node)], names_of(attributes), own);
+    if (!found.members.empty() || !found.extras.empty()) out.insert(node);
+  };
+  for (const NodeId id : rig.scene.nodes()) look_at(rig.nodes[id.index], rig.scene[id].user);
+  for (const Orphan& orphan : rig.orphans) look_at(orphan.node, orphan.attributes);
+  return out;
+}
+
 std::vector<int> own_nodes(const Rig& rig) {
   std::vector<int> out = rig.nodes;
   const NodePlan plan = plan_nodes(rig, rig.ancestor);

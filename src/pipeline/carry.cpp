@@ -74,12 +74,12 @@ std::string describe(const Identifiers& ids, const std::string& module, const Id
 }
 
 Carrier::Carrier(const gltf::Rig& old, gltf::Rig& fresh, const std::vector<anim::Clip>& clips,
-                 const std::set<int>& animated, const catalog::Catalogue& catalogue,
+                 const std::set<int>& used, const catalog::Catalogue& catalogue,
                  update::Options options)
     : old_(old),
       fresh_(fresh),
       clips_(clips),
-      animated_(animated),
+      used_(used),
       catalogue_(catalogue),
       options_(std::move(options)),
       built_(gltf::built_scene(old)),
@@ -134,7 +134,7 @@ void Carrier::run() {
   succeed();
   move_channels();
   move_values();
-  keep_animated_nodes();
+  keep_used_nodes();
 }
 
 /// The orphan that holds what a source had and the new rig does not.
@@ -211,44 +211,53 @@ void Carrier::count(std::size_t source, const Property& property, const Destinat
 }
 
 void Carrier::move_channels() {
-  for (std::size_t c = 0; c < clips_.size(); ++c) {
-    for (std::size_t i = 0; i < clips_[c].channels.size(); ++i) {
-      const anim::Channel& channel = clips_[c].channels[i];
-      const auto found = by_node_.find(channel.node);
-      if (found == by_node_.end()) continue;
-      const std::size_t source = found->second;
-      Move move{c, i, remap_->find(source, property_of(channel)), -1, false, std::nullopt};
-      const Property property = property_of(channel);
-      if (is_foreign(source) || move.destination.kind == Destination::Kind::foreign) {
-        move.stays = true;
-        report_.baked_channels += channel.baked ? 1 : 0;
-        if (!source_node_taken_[source] && !is_foreign(source)) orphan_of(source);
-        moves_.push_back(std::move(move));
-        continue;
+  for (const bool of_orphans : {false, true}) {
+    for (std::size_t c = 0; c < clips_.size(); ++c) {
+      for (std::size_t i = 0; i < clips_[c].channels.size(); ++i) {
+        const auto found = by_node_.find(clips_[c].channels[i].node);
+        if (found != by_node_.end() && sources_[found->second].node.valid() != of_orphans)
+          move_channel(c, i, found->second);
       }
-      bool converted = false;
-      if (move.destination.kind == Destination::Kind::none) {
-        hold(source, property);
-        move.orphan = orphan_of(source);
-      } else if (update::changes_values(property, move.destination, remap_->conversion(source))) {
-        anim::Curve curve = channel.curve;
-        converted = update::convert(curve, property, move.destination, remap_->conversion(source));
-        if (!converted)
-          report_.inexact.push_back(describe_source(source) + "@" + name_of(property));
-        else if (curve.values != channel.curve.values)
-          move.curve = std::move(curve);
-      }
-      report_.baked_channels += channel.baked ? 1 : 0;
-      if (!channel.baked) count(source, property, move.destination, true, converted);
-      moves_.push_back(std::move(move));
     }
   }
 }
 
+void Carrier::move_channel(std::size_t clip, std::size_t index, std::size_t source) {
+  const anim::Channel& channel = clips_[clip].channels[index];
+  const Property property = property_of(channel);
+  Move move{clip, index, remap_->find(source, property), -1, false, std::nullopt};
+  report_.baked_channels += channel.baked ? 1 : 0;
+  if (is_foreign(source) || move.destination.kind == Destination::Kind::foreign) {
+    move.stays = true;
+    if (!source_node_taken_[source] && !is_foreign(source)) orphan_of(source);
+    moves_.push_back(std::move(move));
+    return;
+  }
+  if (move.destination.kind == Destination::Kind::property &&
+      !keyed_.insert({clip, move.destination.plug}).second)
+    move.destination = {};
+  bool converted = false;
+  if (move.destination.kind == Destination::Kind::none) {
+    hold(source, property);
+    move.orphan = orphan_of(source);
+  } else if (update::changes_values(property, move.destination, remap_->conversion(source))) {
+    anim::Curve curve = channel.curve;
+    converted = update::convert(curve, property, move.destination, remap_->conversion(source));
+    if (!converted)
+      report_.inexact.push_back(describe_source(source) + "@" + name_of(property));
+    else if (curve.values != channel.curve.values)
+      move.curve = std::move(curve);
+  }
+  if (!channel.baked) count(source, property, move.destination, true, converted);
+  moves_.push_back(std::move(move));
+}
+
 void Carrier::move_value(std::size_t source, const Property& property, const scene::Value& value) {
-  const Destination destination = remap_->find(source, property);
+  Destination destination = remap_->find(source, property);
   if (destination.kind == Destination::Kind::foreign) return;
   if (implied_.count({source, property.attribute}) != 0) return;
+  if (destination.kind == Destination::Kind::property && !set_.insert(destination.plug).second)
+    destination = {};
   if (destination.kind == Destination::Kind::none) {
     hold(source, property);
     gltf::Orphan& orphan = fresh_.orphans[static_cast<std::size_t>(orphans_[source])];
@@ -354,11 +363,12 @@ void Carrier::remember(const Identity& replaced, const catalog::AttributeValue& 
   }
 }
 
-/// Channels that rigc does not understand may drive a node that goes: it stays for them.
-void Carrier::keep_animated_nodes() {
+/// Channels that rigc does not understand may drive a node that goes, and others may have added to
+/// it: it stays for them.
+void Carrier::keep_used_nodes() {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const int node = node_of(i);
-    if (node < 0 || matches_[i] || is_foreign(i) || animated_.count(node) == 0) continue;
+    if (node < 0 || matches_[i] || is_foreign(i) || used_.count(node) == 0) continue;
     orphan_of(i);
   }
 }

@@ -52,9 +52,9 @@ struct ClipComparison {
 class Carrier {
  public:
   /// `fresh` was built for the skeleton of `old`, which was read from the file that has `clips`.
+  /// `used`: nodes of the file that channels drive or that others have added to.
   Carrier(const gltf::Rig& old, gltf::Rig& fresh, const std::vector<anim::Clip>& clips,
-          const std::set<int>& animated, const catalog::Catalogue& catalogue,
-          update::Options options);
+          const std::set<int>& used, const catalog::Catalogue& catalogue, update::Options options);
 
   /// Finds where everything goes: sets values and orphans of `fresh`.
   void run();
@@ -84,11 +84,12 @@ class Carrier {
   void set_as_before(const Identity& successor, const catalog::AttributeValue& wanted);
   void remember(const Identity& replaced, const catalog::AttributeValue& wanted);
   void move_channels();
+  void move_channel(std::size_t clip, std::size_t channel, std::size_t source);
   void move_values();
   void move_value(std::size_t source, const update::Property& property, const scene::Value& value);
   int orphan_of(std::size_t source);
   void hold(std::size_t source, const update::Property& property);
-  void keep_animated_nodes();
+  void keep_used_nodes();
   void count(std::size_t source, const update::Property& property,
              const update::Destination& destination, bool keyed, bool converted);
   void report_nodes();
@@ -97,7 +98,7 @@ class Carrier {
   const gltf::Rig& old_;
   gltf::Rig& fresh_;
   const std::vector<anim::Clip>& clips_;
-  const std::set<int>& animated_;
+  const std::set<int>& used_;
   const catalog::Catalogue& catalogue_;
   update::Options options_;
   scene::Scene built_;
@@ -108,6 +109,9 @@ class Carrier {
   std::map<int, std::size_t> by_node_;   ///< glTF node to source
   std::vector<int> orphans_;             ///< by source: index in fresh_.orphans, -1
   std::vector<Move> moves_;
+  /// What has keys by clip, or a value: an orphan does not come back where something else is.
+  std::set<std::pair<std::size_t, scene::Plug>> keyed_;
+  std::set<scene::Plug> set_;
   std::map<std::string, std::size_t> changed_;  ///< by description: index in report_.changed
   std::set<std::pair<std::size_t, std::string>> implied_;  ///< source and attribute: see succeed()
   std::optional<update::Remap> remap_;

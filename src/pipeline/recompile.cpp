@@ -111,7 +111,9 @@ std::unique_ptr<Recompilation> Recompilation::open(const std::string& path,
   auto clips = gltf::read_clips(*out->file_, diagnostics);
   if (!clips) return nullptr;
   out->clips_ = std::move(clips->clips);
-  out->animated_ = gltf::animated_nodes(*out->file_);
+  out->used_ = gltf::animated_nodes(*out->file_);
+  for (const gltf::Rig& rig : out->rigs_)
+    out->used_.merge(gltf::nodes_with_additions(*out->file_, rig));
   return out;
 }
 
@@ -138,7 +140,7 @@ bool Recompilation::compile(std::size_t index, NewRig next, const catalog::Catal
   for (const auto& [module, version] : old.modules)
     if (const catalog::Descriptor* descriptor = catalogue.find(module))
       remap.changes[module] = catalog::attribute_changes(*descriptor, version);
-  compiled->carrier = std::make_unique<Carrier>(old, compiled->fresh, clips_, animated_, catalogue,
+  compiled->carrier = std::make_unique<Carrier>(old, compiled->fresh, clips_, used_, catalogue,
                                                 std::move(remap));
   compiled->carrier->run();
   report.global = compiled->fresh.skeleton.global;

@@ -73,7 +73,7 @@ class Recompilation {
   std::optional<gltf::File> file_;
   std::vector<gltf::Rig> rigs_;
   std::vector<anim::Clip> clips_;
-  std::set<int> animated_;
+  std::set<int> used_;  ///< nodes that channels drive or that others have added to
   std::vector<std::unique_ptr<Compiled>> compiled_;
 };
 

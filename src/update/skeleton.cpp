@@ -84,7 +84,9 @@ class Keeper {
       joint.rest = old_.joints[static_cast<std::size_t>(from)].rest;
     } else if (from >= 0 || spread != spread_.end()) {
       const Affine& world = spread != spread_.end() ? spread->second : old_world(from);
-      joint.rest = math::decompose(root ? world : math::inverse(worlds_[parent]) * world);
+      const Affine below = root ? world : math::inverse(worlds_[parent]) * world;
+      // The template's own numbers, where they say the same: they come back as they were.
+      if (!near(math::compose(joint.rest), below)) joint.rest = math::decompose(below);
     }
     const Affine local = math::compose(joint.rest);
     worlds_.push_back(root ? local : worlds_[parent] * local);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -134,6 +135,192 @@ std::size_t orphans_in(const Shot& shot) {
   return count;
 }
 
+/// Largest difference of the numbers of keys and values that belong to the same nodes.
+double number_difference(const Shot& a, const Shot& b) {
+  const auto split = [](const Shot& shot) {
+    std::map<std::string, std::vector<double>> out;
+    for (const std::string& line : test::keys_of(shot)) {
+      const std::size_t head = line.substr(0, line.find(" value ")).size() < line.size()
+                                   ? line.find(' ', line.find(" value ") + 7)
+                                   : line.find(": ") + 1;
+      std::istringstream numbers(line.substr(head));
+      std::vector<double>& list = out[line.substr(0, head)];
+      for (double number = 0; numbers >> number;) list.push_back(number);
+    }
+    return out;
+  };
+  const auto p = split(a), q = split(b);
+  double largest = p.size() == q.size() ? 0 : 1e9;
+  for (const auto& [head, numbers] : p) {
+    const auto found = q.find(head);
+    if (found == q.end() || found->second.size() != numbers.size()) {
+      MESSAGE("not there: " << head);
+      return 1e9;
+    }
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      largest = std::max(largest, std::abs(numbers[i] - found->second[i]));
+  }
+  return largest;
+}
+
+/// Gives everything that has a name for people another one.
+void rename_all(ordered_json& json, Random& random) {
+  const auto rename = [&](ordered_json& list) {
+    for (auto& item : list)
+      if (item.contains("name"))
+        item["name"] = fmt::format("{}.{}", random.chance(0.3) ? "same" : "n", random.below(1000));
+  };
+  for (const char* list : {"nodes", "animations", "meshes", "materials", "skins"})
+    if (json.contains(list)) rename(json[list]);
+  for (auto& rig : json["extensions"]["RIGC_rig"]["rigs"]) {
+    for (const char* list : {"joints", "nodes", "orphans"})
+      if (rig.contains(list)) rename(rig[list]);
+    for (auto& command : rig["commands"]) command["joint"] = "renamed";
+  }
+}
+
+ordered_json without_names(ordered_json json) {
+  const auto forget = [&](ordered_json& list) {
+    for (auto& item : list)
+      if (item.is_object()) item.erase("name");
+  };
+  for (const char* list : {"nodes", "animations", "meshes", "materials", "skins"})
+    if (json.contains(list)) forget(json[list]);
+  for (auto& rig : json["extensions"]["RIGC_rig"]["rigs"]) {
+    for (const char* list : {"joints", "nodes", "orphans"})
+      if (rig.contains(list)) forget(rig[list]);
+    for (auto& command : rig["commands"]) command.erase("joint");
+  }
+  return json;
+}
+
+/// What is not rigc's in a file: by JSON pointer, and bytes by view.
+struct Foreign {
+  std::map<std::string, std::string> texts;
+  std::map<int, std::string> bytes;
+  std::vector<std::pair<int, int>> children;  ///< parent, child
+};
+
+std::string bytes_of_view(const test::Character& character, int view) {
+  const auto& json = character.json["bufferViews"][static_cast<std::size_t>(view)];
+  return character.bin.substr(json.value("byteOffset", std::size_t{0}), json["byteLength"]);
+}
+
+/// What other programs do with a rig's file: nodes, a mesh, a clip and unknown extensions of theirs
+/// after ours; extras, an extension and children on our controls and joints; a channel of theirs in
+/// one of our clips.
+Foreign add_foreign(const std::string& path, Random& random) {
+  const Shot shot = test::read_shot(path);
+  test::Character character = test::load_character(path);
+  ordered_json& json = character.json;
+  Foreign out;
+  const auto push = [&](const char* list, const std::string& text) {
+    json[list].push_back(ordered_json::parse(text));
+    const std::size_t index = json[list].size() - 1;
+    out.texts["/" + std::string(list) + "/" + std::to_string(index)];
+    return static_cast<int>(index);
+  };
+  const auto add_data = [&](const std::vector<float>& values, const char* type, std::size_t width) {
+    character.bin.resize((character.bin.size() + 3) / 4 * 4, '\0');
+    const std::size_t at = character.bin.size();
+    character.bin.append(reinterpret_cast<const char*>(values.data()), values.size() * 4);
+    const int view = push("bufferViews", fmt::format(R"({{"byteLength": {}, "byteOffset": {}, )"
+                                                     R"("buffer": 0, "name": "theirs"}})",
+                                                     values.size() * 4, at));
+    out.bytes[view];
+    return push("accessors",
+                fmt::format(R"({{"count": {}, "componentType": 5126, "type": "{}", )"
+                            R"("bufferView": {}, "min": [0, 0, 0], "max": [1, 1, 1]}})",
+                            values.size() / width, type, view));
+  };
+  const int points = add_data({0, 0, 0, 1, 0, 0, 0, 1, 1}, "VEC3", 3);
+  const int mesh =
+      push("meshes", fmt::format(R"({{"extras": {{"big": 12345678901234567890}}, )"
+                                 R"("primitives": [{{"attributes": {{"POSITION": {}}}}}]}})",
+                                 points));
+  const int lamp =
+      push("nodes", fmt::format(R"({{"mesh": {}, "name": "lamp", "translation": )"
+                                R"([1.0, 2e0, 0.50], "extras": {{"x": [{{}}, null]}}}})",
+                                mesh));
+  for (auto& scene : json["scenes"]) scene["nodes"].push_back(lamp);
+  // Clips: one of theirs, and a channel in one of ours.
+  character.bin.resize((character.bin.size() + 3) / 4 * 4, '\0');
+  const int times = add_data({0, 1}, "SCALAR", 1);
+  json["accessors"][static_cast<std::size_t>(times)]["min"] = {0};
+  json["accessors"][static_cast<std::size_t>(times)]["max"] = {1};
+  const int moves = add_data({0, 0, 0, 1, 1, 1}, "VEC3", 3);
+  const std::string sampler = fmt::format(R"({{"output": {}, "input": {}}})", moves, times);
+  const auto channel = [&](std::size_t index, const char* property) {
+    return fmt::format(R"({{"target": {{"path": "{}", "node": {}}}, "sampler": {}}})", property,
+                       lamp, index);
+  };
+  push("animations",
+       fmt::format(R"({{"extras": {{"take": 3}}, "samplers": [{}], "channels": [{}]}})", sampler,
+                   channel(0, "translation")));
+  ordered_json& ours = json["animations"][0];
+  ours["samplers"].push_back(ordered_json::parse(sampler));
+  ours["channels"].push_back(ordered_json::parse(channel(ours["samplers"].size() - 1, "scale")));
+  out.texts[fmt::format("/animations/0/samplers/{}", ours["samplers"].size() - 1)];
+  out.texts[fmt::format("/animations/0/channels/{}", ours["channels"].size() - 1)];
+  // On nodes of ours.
+  const gltf::Rig& rig = shot.rigs.front();
+  for (const scene::NodeId id : rig.scene.nodes()) {
+    const int index = rig.nodes[id.index];
+    const scene::Kind kind = rig.scene[id].kind;
+    if (index < 0 || (kind != scene::Kind::control && kind != scene::Kind::joint)) continue;
+    ordered_json& node = json["nodes"][static_cast<std::size_t>(index)];
+    const std::string pointer = fmt::format("/nodes/{}", index);
+    if (random.chance(0.4)) {
+      node["extras"]["note"] = {{"by", "studio"}, {"n", 1.50}};
+      out.texts[pointer + "/extras/note"];
+    }
+    if (random.chance(0.3)) {
+      node["extensions"]["ACME_tag"] = {{"keep", {1, 2, index}}};
+      out.texts[pointer + "/extensions/ACME_tag"];
+    }
+    if (random.chance(0.2)) {
+      const int child = push("nodes", R"({"name": "hat", "translation": [0, 0.10, 0]})");
+      json["nodes"][static_cast<std::size_t>(index)]["children"].push_back(child);
+      out.children.emplace_back(index, child);
+    }
+  }
+  json["extensionsUsed"].push_back("ACME_tag");
+  json["extensions"]["ACME_scene"] = {{"list", {1, nullptr, "x"}}};
+  json["extensionsUsed"].push_back("ACME_scene");
+  out.texts["/extensions/ACME_scene"];
+  json["extras"] = {{"studio", "x"}};
+  out.texts["/extras"];
+  json["buffers"][0]["byteLength"] = character.bin.size();
+  test::save_glb(character, path);
+  character = test::load_character(path);
+  for (auto& [pointer, text] : out.texts)
+    text = character.json.at(ordered_json::json_pointer(pointer)).dump();
+  for (auto& [view, bytes] : out.bytes) bytes = bytes_of_view(character, view);
+  return out;
+}
+
+std::string changes(const Foreign& foreign, const std::string& path) {
+  const test::Character character = test::load_character(path);
+  std::string out;
+  for (const auto& [pointer, text] : foreign.texts) {
+    const ordered_json::json_pointer at(pointer);
+    const std::string now =
+        character.json.contains(at) ? character.json.at(at).dump() : std::string("gone");
+    if (now != text) out += pointer + ": " + text + " is " + now + "\n";
+  }
+  for (const auto& [view, bytes] : foreign.bytes)
+    if (bytes_of_view(character, view) != bytes) out += fmt::format("view {}\n", view);
+  const std::vector<int> parents = test::parents_of(character.json);
+  for (const auto& [parent, child] : foreign.children)
+    if (parents[static_cast<std::size_t>(child)] != parent)
+      out += fmt::format("child {} of {} is below {}\n", child, parent,
+                         parents[static_cast<std::size_t>(child)]);
+  for (const char* extension : {"ACME_tag", "ACME_scene"})
+    if (character.json["extensionsUsed"].dump().find(extension) == std::string::npos)
+      out += extension;
+  return out;
+}
+
 }  // namespace
 
 TEST_CASE("update laws: whatever a template becomes, every key and value stays in the file") {
@@ -164,6 +351,208 @@ TEST_CASE("update laws: whatever a template becomes, every key and value stays i
   }
   CHECK(orphans > 100);
   CHECK(converted > 5);
+}
+
+TEST_CASE("update laws: there and back again plays the same motion with the same keys") {
+  double largest = 0;
+  std::size_t exact_ones = 0, away = 0;
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    const bool turns = seed % 2 == 0;
+    EditOptions options;
+    options.turns = turns;
+    Session s("back", seed, options);
+    test::animate(s.shot, static_cast<unsigned>(seed));
+    const EditedTemplate first = s.now;
+    const Shot original = test::read_shot(s.shot);
+    s.publish(2 + seed / 3);
+    s.update();
+    away += test::keys_of(test::read_shot(s.shot)) != test::keys_of(original);
+    s.go_to(first);
+    s.update();
+    CAPTURE(seed);
+    CAPTURE(s.edits);
+    const Shot after = test::read_shot(s.shot);
+    CHECK(orphans_in(after) == 0);
+    bool exact = false;
+    const double difference = test::motion_difference(original, after, "", &exact);
+    largest = std::max(largest, difference);
+    CHECK(difference <= 1e-6);
+    exact_ones += exact;
+    if (turns) {
+      CHECK(number_difference(original, after) <= 1e-6);
+    } else {
+      CHECK(exact);
+      CHECK(test::keys_of(original) == test::keys_of(after));
+    }
+    CHECK(is_clean(s.shot));
+  }
+  MESSAGE("largest difference in heights: " << largest << ", exact: " << exact_ones << " of 24");
+  CHECK(away > 10);
+}
+
+TEST_CASE(
+    "update laws: an unchanged rig differs by exactly nothing, and a second update does nothing") {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    CAPTURE(seed);
+    EditOptions options;
+    options.turns = true;
+    Session s("nothing", seed, options);
+    test::animate(s.shot, static_cast<unsigned>(seed));
+    s.publish(4);
+    s.update();
+    const Shot before = test::read_shot(s.shot);
+    s.publish(0);
+    const auto result = s.update();
+    REQUIRE(result.outcome == Outcome::changed);
+    const auto rig = ordered_json::parse(result.json)["rigs"][0];
+    CHECK(rig["largest_mm"] == 0.0);
+    CHECK(rig["largest_degrees"] == 0.0);
+    CHECK(rig["clips"].size() == 3);  // what stands without a clip, and both clips
+    for (const auto& clip : rig["clips"]) {
+      CHECK(clip["times"] >= 1);
+      CHECK(clip["joints"].empty());
+    }
+    CHECK(rig["new_orphans"] == 0);
+    const Shot after = test::read_shot(s.shot);
+    CHECK(test::keys_of(before) == test::keys_of(after));
+    bool exact = false;
+    test::motion_difference(before, after, "", &exact);
+    CHECK(exact);
+
+    const std::string bytes = test::bytes_of(s.shot);
+    struct stat was {
+    }, is{};
+    REQUIRE(stat(s.shot.c_str(), &was) == 0);
+    const auto again = s.update();
+    REQUIRE(stat(s.shot.c_str(), &is) == 0);
+    CHECK(again.outcome == Outcome::unchanged);
+    CHECK(test::bytes_of(s.shot) == bytes);
+    CHECK(was.st_ino == is.st_ino);
+    CHECK(was.st_mtim.tv_sec == is.st_mtim.tv_sec);
+    CHECK(was.st_mtim.tv_nsec == is.st_mtim.tv_nsec);
+    CHECK(was.st_ctim.tv_nsec == is.st_ctim.tv_nsec);
+  }
+}
+
+TEST_CASE("update laws: names of nodes, joints and clips change nothing but names") {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    EditOptions options;
+    options.turns = true;
+    Session s("names", seed, options);
+    test::animate(s.shot, static_cast<unsigned>(seed));
+    s.publish(3);
+    s.update();
+    const std::string plain = s.shot, other = s.folder + "/renamed.glb";
+    test::Character character = test::load_character(plain);
+    Random random(seed);
+    rename_all(character.json, random);
+    test::save_glb(character, other);
+    s.publish(3);
+    CAPTURE(seed);
+    CAPTURE(s.edits);
+    s.update();
+    s.shot = other;
+    s.update();
+    test::Character a = test::load_character(plain), b = test::load_character(other);
+    CHECK(a.bin == b.bin);
+    const auto differences = ordered_json::diff(without_names(a.json), without_names(b.json));
+    CHECK(differences.dump().substr(0, 500) == "[]");
+  }
+}
+
+TEST_CASE("update laws: what others have put into the file stays, by index and to the letter") {
+  std::size_t with_orphans = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    EditOptions options;
+    options.turns = true;
+    Session s("foreign", seed, options);
+    test::animate(s.shot, static_cast<unsigned>(seed));
+    Random random(seed);
+    const Foreign foreign = add_foreign(s.shot, random);
+    const Shot original = test::read_shot(s.shot);
+    for (int step = 0; step < 4; ++step) {
+      s.publish(2);
+      s.update();
+      CAPTURE(seed);
+      CAPTURE(step);
+      CAPTURE(s.edits);
+      CHECK(changes(foreign, s.shot) == "");
+      const Shot after = test::read_shot(s.shot);
+      CHECK(lost(original, after, true) == "");
+      CHECK(is_clean(s.shot));
+      with_orphans += orphans_in(after) > 0;
+    }
+  }
+  CHECK(with_orphans > 5);
+}
+
+TEST_CASE("update laws: a file does not grow while its rig goes back and forth") {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    EditOptions options;
+    options.turns = true;
+    Session s("size", seed, options);
+    test::animate(s.shot, static_cast<unsigned>(seed));
+    Random random(seed);
+    const bool others = seed % 2 == 0;
+    if (others) add_foreign(s.shot, random);
+    const EditedTemplate a = s.now;
+    EditedTemplate b = a;
+    std::vector<std::size_t> sizes;
+    for (int round = 0; round < 8; ++round) {
+      if (round == 0) {
+        s.publish(5);
+        b = s.now;
+      } else {
+        s.go_to(round % 2 ? a : b);
+      }
+      s.update();
+      sizes.push_back(test::bytes_of(s.shot).size());
+    }
+    CAPTURE(seed);
+    CAPTURE(s.edits);
+    // The third version is the first that says where the second had things.
+    const std::size_t mark = *std::max_element(sizes.begin(), sizes.begin() + 3);
+    for (std::size_t i = 3; i < sizes.size(); ++i) {
+      CAPTURE(i);
+      CHECK(sizes[i] <= mark);
+    }
+    if (others) CHECK(is_clean(s.shot));
+  }
+}
+
+TEST_CASE("update laws: after a hundred versions every key is there and the file is no larger") {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    EditOptions options;
+    options.turns = seed % 2 == 0;
+    options.groups = 2;
+    Session s("hundred", seed, options);
+    test::animate(s.shot, static_cast<unsigned>(seed), {2, 0.6, 0.3, 4});
+    const Shot original = test::read_shot(s.shot);
+    const EditedTemplate first = s.now;
+    const std::size_t begin = test::bytes_of(s.shot).size();
+    std::size_t mark = begin;
+    for (int step = 0; step < 100; ++step) {
+      s.publish(1);
+      const auto result = s.update();
+      REQUIRE(result.outcome == Outcome::changed);
+      mark = std::max(mark, test::bytes_of(s.shot).size());
+      if (step % 10 != 9) continue;
+      CAPTURE(seed);
+      CAPTURE(step);
+      CHECK(lost(original, test::read_shot(s.shot), options.turns) == "");
+      CHECK(is_clean(s.shot));
+    }
+    s.go_to(first);
+    s.update();
+    const Shot after = test::read_shot(s.shot);
+    CAPTURE(seed);
+    CAPTURE(s.edits);
+    CHECK(orphans_in(after) == 0);
+    CHECK(test::motion_difference(original, after, "") <= 1e-6);
+    const std::size_t end = test::bytes_of(s.shot).size();
+    MESSAGE("a hundred versions: " << begin << " bytes, at most " << mark << ", then " << end);
+    CHECK(end <= mark);
+  }
 }
 
 }  // namespace rigc
