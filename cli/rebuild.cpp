@@ -123,6 +123,12 @@ class Remove final : public Command {
   }
 
  private:
+  static const char* plural(std::size_t count) { return count == 1 ? "" : "s"; }
+  static std::string stripped_text(const pipeline::Removed& removed) {
+    const std::size_t rigs = removed.rigs.size();
+    return fmt::format("{} rig{} taken out, with {} channel{} on {} controls", rigs, plural(rigs),
+                       removed.channels, plural(removed.channels), rigs == 1 ? "its" : "their");
+  }
   FileResult one(const FileWork& work, Diagnostics& diagnostics) const {
     FileResult result;
     const auto removed = strip_ ? pipeline::strip(rigs_, work, diagnostics)
@@ -131,11 +137,11 @@ class Remove final : public Command {
     const bool changed = strip_ || removed->orphans > 0;
     result.outcome = changed ? FileResult::Outcome::changed : FileResult::Outcome::unchanged;
     result.bytes = removed->bytes;
-    result.summary = strip_ ? fmt::format("{} rig{} taken out, with {} channels on controls",
-                                          removed->rigs.size(),
-                                          removed->rigs.size() == 1 ? "" : "s", removed->channels)
-                            : fmt::format("{} orphan{} gone, with {} channels", removed->orphans,
-                                          removed->orphans == 1 ? "" : "s", removed->channels);
+    result.summary = strip_    ? stripped_text(*removed)
+                     : changed ? fmt::format("{} orphan{} gone, with {} channel{}",
+                                             removed->orphans, plural(removed->orphans),
+                                             removed->channels, plural(removed->channels))
+                               : "has no orphans";
     json::Writer w;
     w.begin_object().key("rigs").begin_array();
     for (const std::string& rig : removed->rigs) w.value(rig);

@@ -159,6 +159,20 @@ std::optional<std::string> replaced_role(const Descriptor& descriptor, std::stri
   return std::nullopt;
 }
 
+std::vector<AttributeValue> values_as(const Descriptor& descriptor, std::string_view module) {
+  std::vector<AttributeValue> found;
+  for (const auto& [earlier, roles] : descriptor.replaces) {
+    if (earlier != module) continue;
+    for (const auto& [key, text] : roles) {
+      const std::size_t dot = key.find('.');
+      const auto number = parse_number(text);
+      if (dot != std::string::npos && number)
+        found.push_back({key.substr(0, dot), key.substr(dot + 1), *number});
+    }
+  }
+  return found;
+}
+
 std::string describe(const Change& change) {
   const std::string& name = change.attribute.empty() ? change.parameter : change.attribute;
   std::vector<std::string> facts;

@@ -42,6 +42,16 @@ std::vector<AttributeChange> attribute_changes(const Descriptor& descriptor, int
 std::optional<std::string> replaced_role(const Descriptor& descriptor, std::string_view module,
                                          std::string_view role);
 
+/// An attribute of a module's controls in one role, and a number for it.
+struct AttributeValue {
+  std::string role, attribute;
+  double value = 0;
+  bool operator==(const AttributeValue&) const = default;
+};
+/// Those with which this module does what the module did that it succeeds: in `replaces:`
+/// `settings.ik_fk: 0`.
+std::vector<AttributeValue> values_as(const Descriptor& descriptor, std::string_view module);
+
 /// One change in words, for people: `version 3: blend was called ik_fk`.
 std::string describe(const Change& change);
 

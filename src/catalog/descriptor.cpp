@@ -28,6 +28,7 @@ class DescriptorReader {
   void read_creates();
   void read_replaces();
   bool has_role(const std::string& role) const;
+  void check_role(const std::string& role, const Span& span);
 
   const yaml::Node& root_;
   Diagnostics& diagnostics_;
@@ -105,6 +106,15 @@ void DescriptorReader::read_creates() {
   }
 }
 
+void DescriptorReader::check_role(const std::string& role, const Span& span) {
+  if (has_role(role)) return;
+  std::vector<std::string> known;
+  for (const Creates& made : descriptor_.creates) known.push_back(made.role);
+  diagnostics_.report(codes::kBadReplaces, span,
+                      fmt::format("{} does not make a node in role {}", descriptor_.module, role),
+                      suggest(role, known));
+}
+
 void DescriptorReader::read_replaces() {
   const yaml::Node* replaces = root_.find("replaces");
   if (!replaces || !expect_map(*replaces, "replaces", diagnostics_)) return;
@@ -113,16 +123,15 @@ void DescriptorReader::read_replaces() {
     module = entry.key;
     if (!expect_map(entry.value, "roles", diagnostics_)) continue;
     for (const yaml::Node::Entry& pair : entry.value.entries) {
-      const auto role = yaml::as_name(pair.value, "role", diagnostics_);
-      if (!role) continue;
-      roles.emplace_back(pair.key, *role);
-      if (has_role(*role)) continue;
-      std::vector<std::string> known;
-      for (const Creates& made : descriptor_.creates) known.push_back(made.role);
-      diagnostics_.report(
-          codes::kBadReplaces, pair.value.span,
-          fmt::format("{} does not make a node in role {}", descriptor_.module, *role),
-          suggest(*role, known));
+      const std::size_t dot = pair.key.find('.');
+      if (dot != std::string::npos) {
+        const auto number = yaml::as_number(pair.value, "value", diagnostics_);
+        check_role(pair.key.substr(0, dot), pair.value.span);
+        if (number) roles.emplace_back(pair.key, number_text(*number));
+      } else if (const auto role = yaml::as_name(pair.value, "role", diagnostics_)) {
+        check_role(*role, pair.value.span);
+        roles.emplace_back(pair.key, *role);
+      }
     }
   }
 }

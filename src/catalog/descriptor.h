@@ -80,7 +80,7 @@ struct Descriptor {
   std::vector<Parameter> parameters;
   std::vector<Creates> creates;
   std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>>
-      replaces;  ///< module -> (role, role)
+      replaces;  ///< module -> (role, role), or (role.attribute, number): see changes.h
   std::vector<Change> changes;
   std::string example;  ///< a whole small template (YAML) that the tests build
   const Parameter* find(std::string_view parameter) const;

@@ -29,7 +29,8 @@ const Section& descriptor_format() {
        {"parameters", Form::parameters, "In the order and frames in which an editor shows them."},
        {"creates", Form::list, "The nodes that it makes.", {.section = &creates_format()}},
        {"replaces", Form::values,
-        "Modules that this one succeeds, with their roles: `{fk_chain: {control: fk}}`."},
+        "Modules that this one succeeds, with their roles, and values of attributes that do what "
+        "they did: `{fk_chain: {fk: fk, settings.ik_fk: 0}}`."},
        {"changes",
         Form::list,
         "What changed from version to version.",

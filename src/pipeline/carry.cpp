@@ -80,6 +80,7 @@ Carrier::Carrier(const gltf::Rig& old, gltf::Rig& fresh, const std::vector<anim:
       fresh_(fresh),
       clips_(clips),
       used_(used),
+      catalogue_(catalogue),
       options_(std::move(options)),
       built_(gltf::built_scene(old)),
       sources_(update::sources_of(built_)) {
@@ -130,6 +131,7 @@ void Carrier::find_places() {
 void Carrier::run() {
   find_places();
   report_nodes();
+  succeed();
   move_channels();
   move_values();
   keep_used_nodes();
@@ -253,6 +255,7 @@ void Carrier::move_channel(std::size_t clip, std::size_t index, std::size_t sour
 void Carrier::move_value(std::size_t source, const Property& property, const scene::Value& value) {
   Destination destination = remap_->find(source, property);
   if (destination.kind == Destination::Kind::foreign) return;
+  if (implied_.count({source, property.attribute}) != 0) return;
   if (destination.kind == Destination::Kind::property && !set_.insert(destination.plug).second)
     destination = {};
   if (destination.kind == Destination::Kind::none) {
@@ -296,6 +299,67 @@ void Carrier::move_values() {
     for (const scene::UserAttribute& attribute : orphan.attributes)
       if (attribute.value != attribute.initial)
         move_value(i, {Path::attribute, attribute.name}, attribute.value);
+  }
+}
+
+/// A module that takes the place of another does what that one did, whatever it does by default:
+/// its descriptor says with which values (a limb that had FK alone stays at FK). What they were
+/// waits for the other module's return.
+void Carrier::succeed() {
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    if (!matches_[i] || matches_[i]->rule != update::Rule::replaces) continue;
+    const update::Source& from = sources_[i];
+    const scene::Node& to = fresh_.scene[matches_[i]->to];
+    if (const catalog::Descriptor* now = catalogue_.find(to.module))
+      for (const auto& wanted : catalog::values_as(*now, from.module))
+        set_as_before(to.identity, wanted);
+    const catalog::Descriptor* before = catalogue_.find(from.module);
+    if (!before || !from.node.valid()) continue;
+    for (const auto& wanted : catalog::values_as(*before, to.module))
+      remember(from.identity, wanted);
+  }
+}
+
+/// Sets an attribute of a control that the successor's command made, unless that control was there
+/// before: then it has a value of its own.
+void Carrier::set_as_before(const Identity& successor, const catalog::AttributeValue& wanted) {
+  for (const NodeId id : fresh_.scene.nodes()) {
+    const scene::Node& node = fresh_.scene[id];
+    const bool meant = node.identity.holder == successor.holder &&
+                       node.identity.command == successor.command &&
+                       node.identity.role == wanted.role;
+    const bool was_there = std::any_of(matches_.begin(), matches_.end(),
+                                       [&](const auto& match) { return match && match->to == id; });
+    if (!meant || was_there) continue;
+    const auto plug = fresh_.scene.find_plug(id, wanted.attribute);
+    if (!plug || fresh_.scene.value(*plug) == scene::Value(wanted.value)) continue;
+    fresh_.posed.push_back({*plug, fresh_.scene.value(*plug)});
+    set_value(fresh_.scene, *plug, wanted.value);
+    report_.set.push_back(describe(node.ids, node.module, node.identity, node.name) + "@" +
+                          wanted.attribute);
+  }
+}
+
+/// An attribute of a control that goes with its command, where it stood otherwise: an orphan.
+void Carrier::remember(const Identity& replaced, const catalog::AttributeValue& wanted) {
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    const update::Source& from = sources_[i];
+    const bool meant = from.node.valid() && from.identity.holder == replaced.holder &&
+                       from.identity.command == replaced.command &&
+                       from.identity.role == wanted.role;
+    if (!meant || matches_[i]) continue;
+    const auto plug = built_.find_plug(from.node, wanted.attribute);
+    if (!plug) continue;
+    // It comes back with the module, for the same reason as it went.
+    if (old_.scene.value(*plug) == scene::Value(wanted.value)) {
+      implied_.emplace(i, wanted.attribute);
+      continue;
+    }
+    if (built_.value(*plug) == scene::Value(wanted.value)) continue;
+    hold(i, {Path::attribute, wanted.attribute});
+    for (scene::UserAttribute& held :
+         fresh_.orphans[static_cast<std::size_t>(orphans_[i])].attributes)
+      if (held.name == wanted.attribute && held.value == held.initial) held.initial = wanted.value;
   }
 }
 

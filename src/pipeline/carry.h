@@ -11,6 +11,7 @@
 
 #include "anim/clip.h"
 #include "catalog/catalogue.h"
+#include "catalog/changes.h"
 #include "gltf/channels.h"
 #include "gltf/rig.h"
 #include "update/remap.h"
@@ -34,9 +35,12 @@ struct CarryReport {
   std::size_t kept_values = 0;           ///< values without keys, likewise
   std::vector<CarriedProperty> changed;  ///< remapped, converted, orphaned or back
   std::vector<std::string> inexact;      ///< properties whose values cannot be said exactly
-  std::size_t orphans = 0;               ///< properties that remain without a node
-  std::size_t new_orphans = 0;           ///< that had one before
-  std::size_t baked_channels = 0;        ///< on joints, which a bake made for the old rig
+  /// Properties that a new module has another value of, so that what was keyed on the one before
+  /// plays on.
+  std::vector<std::string> set;
+  std::size_t orphans = 0;         ///< properties that remain without a node
+  std::size_t new_orphans = 0;     ///< that had one before
+  std::size_t baked_channels = 0;  ///< on joints, which a bake made for the old rig
 };
 
 /// Compares in one clip.
@@ -76,6 +80,9 @@ class Carrier {
   int node_of(std::size_t source) const;
   bool is_foreign(std::size_t source) const;
   void find_places();
+  void succeed();
+  void set_as_before(const Identity& successor, const catalog::AttributeValue& wanted);
+  void remember(const Identity& replaced, const catalog::AttributeValue& wanted);
   void move_channels();
   void move_channel(std::size_t clip, std::size_t channel, std::size_t source);
   void move_values();
@@ -92,6 +99,7 @@ class Carrier {
   gltf::Rig& fresh_;
   const std::vector<anim::Clip>& clips_;
   const std::set<int>& used_;
+  const catalog::Catalogue& catalogue_;
   update::Options options_;
   scene::Scene built_;
   std::vector<update::Source> sources_;
@@ -105,6 +113,7 @@ class Carrier {
   std::set<std::pair<std::size_t, scene::Plug>> keyed_;
   std::set<scene::Plug> set_;
   std::map<std::string, std::size_t> changed_;  ///< by description: index in report_.changed
+  std::set<std::pair<std::size_t, std::string>> implied_;  ///< source and attribute: see succeed()
   std::optional<update::Remap> remap_;
   CarryReport report_;
 };

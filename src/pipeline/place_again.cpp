@@ -48,6 +48,29 @@ const tags::ForeignSkeleton* skeleton_of(const std::vector<tags::ForeignSkeleton
   return best;
 }
 
+/// The skeleton without what rigc hung into it: the joints of the model alone.
+tags::ForeignSkeleton without_own(const tags::ForeignSkeleton& skeleton, const gltf::Rig& rig) {
+  const std::vector<int> nodes = gltf::own_nodes(rig);
+  std::set<int> own(nodes.begin(), nodes.end());
+  for (const gltf::Orphan& orphan : rig.orphans) own.insert(orphan.node);
+  tags::ForeignSkeleton out = skeleton;
+  out.joints.clear();
+  std::vector<int> index;  // by joint of `skeleton`
+  const auto now = [&](int joint) {
+    return joint < 0 ? -1 : index[static_cast<std::size_t>(joint)];
+  };
+  for (const tags::ForeignJoint& joint : skeleton.joints) {
+    const bool stays = own.count(joint.node) == 0 && (joint.parent < 0 || now(joint.parent) >= 0);
+    index.push_back(stays ? static_cast<int>(out.joints.size()) : -1);
+    if (!stays) continue;
+    out.joints.push_back(joint);
+    out.joints.back().parent = now(joint.parent);
+  }
+  for (auto& [bone, joint] : out.humanoid) joint = now(joint);
+  std::erase_if(out.humanoid, [](const auto& entry) { return entry.second < 0; });
+  return out;
+}
+
 bool has_new_joints(const templates::Expanded& expanded, const templates::Bindings& known) {
   return std::any_of(
       expanded.joints.begin(), expanded.joints.end(), [&](const templates::ExpandedJoint& joint) {
@@ -70,27 +93,29 @@ TaggedSkeleton joints_of(const TaggedSkeleton& skeleton, std::size_t first, std:
 }
 
 std::optional<TaggedSkeleton> fit_again(const templates::Expanded& expanded, const gltf::File& file,
-                                        const std::string& rest, const TaggedSkeleton& old,
+                                        const gltf::Rig& rig, const TaggedSkeleton& old,
                                         const std::vector<templates::Map>& maps,
                                         Diagnostics& diagnostics) {
-  const auto skeletons = gltf::read_skeletons(file, rest, diagnostics);
+  const auto skeletons = gltf::read_skeletons(file, rig.settings.rest, diagnostics);
   if (!skeletons) return std::nullopt;
-  const tags::ForeignSkeleton* skeleton = skeleton_of(*skeletons, old);
-  if (!skeleton) {
+  const tags::ForeignSkeleton* found = skeleton_of(*skeletons, old);
+  if (!found) {
     diagnostics.report(codes::kModelGone, Place(file.path),
-                       "no skeleton of the file has the joints of the rig");
+                       fmt::format("no skeleton of the file has the joints of rig \"{}\"",
+                                   printable(rig.skeleton.global, 60)));
     return std::nullopt;
   }
+  const tags::ForeignSkeleton skeleton = without_own(*found, rig);
   const templates::Bindings known = bindings_of(old);
   templates::Map map;
   if (has_new_joints(expanded, known)) {
-    const auto trials = templates::try_maps(maps, expanded, *skeleton);
+    const auto trials = templates::try_maps(maps, expanded, skeleton);
     if (!trials.empty()) map = *trials.front().map;
   }
   // What there is to warn of in the fit was said when the rig was built.
   Diagnostics fitting(diagnostics.sources());
   templates::FitReport report;
-  auto fresh = templates::fit(expanded, *skeleton, map, report, fitting, &known);
+  auto fresh = templates::fit(expanded, skeleton, map, report, fitting, &known);
   if (!fresh) diagnostics.append(fitting);
   return fresh;
 }
@@ -160,9 +185,8 @@ std::optional<TaggedSkeleton> place_again(const std::vector<const templates::Exp
   for (std::size_t i = 0; i < mains.size(); ++i) {
     const TaggedSkeleton own =
         mains.size() == 1 ? old.skeleton : joints_of(old.skeleton, begins[i], begins[i + 1]);
-    auto fresh = is_fitted(own)
-                     ? fit_again(*mains[i], file, old.settings.rest, own, maps, diagnostics)
-                     : templates::place(*mains[i], diagnostics);
+    auto fresh = is_fitted(own) ? fit_again(*mains[i], file, old, own, maps, diagnostics)
+                                : templates::place(*mains[i], diagnostics);
     if (!fresh) return std::nullopt;
     tags::set_global(*fresh, old.skeleton.global);
     if (out)

@@ -52,9 +52,11 @@ bool check_strict(const std::string& path, const RigReport& report, Diagnostics&
     if (property.to.empty() && lost.size() < 8) lost.push_back(property.from);
   diagnostics.report(
       codes::kWouldOrphan, Place(path),
-      fmt::format("{} propert{} of rig \"{}\" would lose the node that they key or set",
-                  report.carry.new_orphans, report.carry.new_orphans == 1 ? "y" : "ies",
-                  printable(report.global)),
+      report.carry.new_orphans == 1
+          ? fmt::format("1 property of rig \"{}\" would lose the node that it keys or sets",
+                        printable(report.global))
+          : fmt::format("{} properties of rig \"{}\" would lose the nodes that they key or set",
+                        report.carry.new_orphans, printable(report.global)),
       "among them " + printable(join(lost, ", "), 400) +
           "; `was:` in the template says what a joint, part or command was");
   return false;

@@ -154,6 +154,7 @@ std::string as_text(const RigReport& report, bool verbose) {
   if (const std::string same = kept(carry); !same.empty()) text += "    " + same + "\n";
   add_properties(text, report, verbose);
   add_names(text, carry.inexact, "property", "cannot be said exactly and stays as it is", verbose);
+  add_names(text, carry.set, "value", "set, so that what was keyed plays on", verbose);
   add_differences(text, report);
   text.pop_back();
   return text;
@@ -187,6 +188,7 @@ void write_json(json::Writer& writer, const RigReport& report) {
   }
   writer.end_array();
   write_names(writer, "inexact", carry.inexact);
+  write_names(writer, "set", carry.set);
   const Largest largest = largest_difference(report);
   writer.member("largest_mm", largest.mm).member("largest_degrees", largest.degrees);
   writer.key("clips").begin_array();

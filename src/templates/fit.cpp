@@ -37,13 +37,15 @@ class Fitter {
  public:
   Fitter(const Expanded& expanded, const tags::ForeignSkeleton& model,
          const tags::TaggedSkeleton& placed, const Matching& matching, const Measured& measured,
-         Diagnostics& diagnostics)
+         const Bindings* known, Diagnostics& diagnostics)
       : expanded_(expanded),
         model_(model),
         placed_(placed),
         matching_(matching),
         measured_(measured),
-        diagnostics_(diagnostics) {}
+        diagnostics_(diagnostics) {
+    if (known) know(*known);
+  }
   tags::TaggedSkeleton run();
 
  private:
@@ -55,6 +57,8 @@ class Fitter {
   Vec3 bone_at(std::size_t index) const;
   int matched_above(std::size_t index) const;
   int matched_below(std::size_t index) const;
+  void know(const Bindings& known);
+  JointKey key_of_bone(int bone) const;
   tags::TaggedJoint tagged(int bone) const;
   void set_opposites();
   void set_template_parents();
@@ -70,11 +74,13 @@ class Fitter {
     int joint = -1;  ///< expanded joint that the bone stands for
     std::uint32_t ordinal = 0;
   };
-  std::vector<Role> roles_;       ///< by bone
-  std::vector<bool> included_;    ///< by bone
-  std::vector<int> bone_index_;   ///< by bone: index in the result
-  std::vector<int> joint_index_;  ///< by expanded joint: index of its last joint in the result
-  std::vector<Affine> rest_;      ///< by index in the result, rig space
+  std::vector<Role> roles_;        ///< by bone
+  std::vector<bool> included_;     ///< by bone
+  std::vector<int> bone_index_;    ///< by bone: index in the result
+  std::vector<int> joint_index_;   ///< by expanded joint: index of its last joint in the result
+  std::vector<Affine> rest_;       ///< by index in the result, rig space
+  std::map<int, JointKey> known_;  ///< of bones that no joint of the template stands for, by node
+  std::set<JointKey> taken_keys_;  ///< of an earlier fit
   double worst_shear_ = 1e-4;
   std::string sheared_;
   tags::TaggedSkeleton out_;
@@ -108,6 +114,28 @@ void Fitter::find_included() {
   }
 }
 
+void Fitter::know(const Bindings& known) {
+  std::set<std::uint64_t> own;
+  for (const ExpandedJoint& joint : expanded_.joints) own.insert(joint.tagged.key.uid);
+  for (const auto& [key, node] : known.nodes) {
+    taken_keys_.insert(key);
+    if (own.count(key.uid) == 0) known_.emplace(node, key);
+  }
+}
+
+/// A bone that is in the rig because others hang on it keeps the key of the fit before, whatever
+/// bones there are now.
+JointKey Fitter::key_of_bone(int bone) const {
+  const auto known = known_.find(model_.joints[static_cast<std::size_t>(bone)].node);
+  if (known != known_.end()) return known->second;
+  std::string bytes = "foreign";
+  bytes.push_back('\0');
+  bytes += fmt::format("{}", bone);
+  JointKey key;
+  for (key.uid = hash64(bytes); taken_keys_.count(key) != 0; key.uid = hash64(bytes)) bytes += '+';
+  return key;
+}
+
 tags::TaggedJoint Fitter::tagged(int bone) const {
   const Role& role = roles_[static_cast<std::size_t>(bone)];
   const tags::ForeignJoint& foreign = model_.joints[static_cast<std::size_t>(bone)];
@@ -115,10 +143,7 @@ tags::TaggedJoint Fitter::tagged(int bone) const {
   if (role.joint >= 0) {
     joint = joint_of(expanded_.joints[static_cast<std::size_t>(role.joint)], role.ordinal);
   } else {
-    std::string bytes = "foreign";
-    bytes.push_back('\0');
-    bytes += fmt::format("{}", bone);
-    joint.key.uid = hash64(bytes);
+    joint.key = key_of_bone(bone);
     joint.ids.global = out_.global;
   }
   if (!foreign.name.empty()) joint.name = foreign.name;
@@ -329,7 +354,7 @@ std::optional<tags::TaggedSkeleton> fit(const Expanded& expanded,
   const auto matching = match(expanded, model, map, report, diagnostics, known);
   if (!matching) return std::nullopt;
   const Measured measured = measure(expanded, *placed, model, *matching, report, diagnostics);
-  return Fitter(expanded, model, *placed, *matching, measured, diagnostics).run();
+  return Fitter(expanded, model, *placed, *matching, measured, known, diagnostics).run();
 }
 
 }  // namespace rigc::templates

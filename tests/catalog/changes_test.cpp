@@ -35,7 +35,7 @@ parameters:
 creates:
   - {role: fk, kind: control, help: H.}
   - {role: zero, kind: transform, help: H.}
-replaces: {fk_chain: {control: fk}, old_chain: {handle: zero}}
+replaces: {fk_chain: {control: fk, fk.blend: -0.25}, old_chain: {handle: zero}}
 changes:
 )" + changes;
 }
@@ -170,6 +170,9 @@ TEST_CASE("catalog changes: attributes of controls, and roles of modules that we
   CHECK(replaced_role(d, "old_chain", "handle") == "zero");
   CHECK_FALSE(replaced_role(d, "fk_chain", "handle"));
   CHECK_FALSE(replaced_role(d, "new_chain", "control"));
+  CHECK(values_as(d, "fk_chain") == std::vector<AttributeValue>{{"fk", "blend", -0.25}});
+  CHECK(values_as(d, "old_chain").empty());
+  CHECK(values_as(d, "new_chain").empty());
 }
 
 TEST_CASE("catalog changes: entries are checked") {

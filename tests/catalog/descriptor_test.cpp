@@ -180,6 +180,8 @@ TEST_CASE("catalog descriptor: creates, replaces and changes are checked") {
   bad(kHead + "creates: [{role: fk, kind: control, per: rig, help: H.}]\n",
       catalog::codes::kUnknownWord, "per");
   bad(kHead + made + "replaces: {old: {control: kf}}\n", catalog::codes::kBadReplaces, "kf");
+  bad(kHead + made + "replaces: {old: {kf.blend: 1}}\n", catalog::codes::kBadReplaces, "1");
+  bad(kHead + made + "replaces: {old: {fk.blend: most}}\n", rigc::codes::kNotANumber, "most");
   bad(kHead + made + "replaces: {old: 3}\n", rigc::codes::kNotAMap, "old");
   bad(kHead + "changes: [{version: 3, note: N}]\n", catalog::codes::kBadChange, "changes");
   bad(kHead + "changes: [{note: N}]\n", catalog::codes::kMissingKey, "changes");

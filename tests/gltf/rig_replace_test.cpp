@@ -39,6 +39,16 @@ std::string bin_of(const File& file) {
   return bytes.size() > 28 + json_size ? bytes.substr(28 + json_size) : std::string();
 }
 
+/// Spans of each point into the same two files.
+Rig sample() {
+  Diagnostics diagnostics;
+  return sample_rig(diagnostics);
+}
+Rig with_proxy() {
+  Diagnostics diagnostics;
+  return proxy_rig(diagnostics);
+}
+
 /// A rig of joints alone, as an unbuilt sample_rig().
 Rig bare_rig() {
   RigMaker maker;
@@ -84,13 +94,11 @@ json::Value node(const File& file, int index) {
 }  // namespace
 
 TEST_CASE("gltf rig_replace: a rig in its own place changes no byte") {
-  Diagnostics diagnostics;
   for (const bool proxy : {false, true}) {
-    Rig rig = proxy ? proxy_rig(diagnostics) : sample_rig(diagnostics);
+    Rig rig = proxy ? with_proxy() : sample();
     const File file = written(empty_file(), rig, "replace_self");
     const Rig old = read_one(file);
-    Rig fresh = sample_rig(diagnostics);
-    if (proxy) fresh = proxy_rig(diagnostics);
+    Rig fresh = proxy ? with_proxy() : sample();
     const File after = replaced_by(file, old, fresh, "replace_self_after");
     CHECK(fresh.nodes == old.nodes);
     CHECK(fresh.owned == old.owned);
@@ -100,8 +108,7 @@ TEST_CASE("gltf rig_replace: a rig in its own place changes no byte") {
 
 TEST_CASE(
     "gltf rig_replace: nodes that stay keep their index, free places are cut and taken again") {
-  Diagnostics diagnostics;
-  Rig rig = sample_rig(diagnostics);
+  Rig rig = sample();
   const File file = written(empty_file(), rig, "replace_less");
   const Rig old = read_one(file);
   Rig bare = bare_rig();
@@ -112,15 +119,14 @@ TEST_CASE(
   CHECK(less.root()["nodes"].items().size() == 3);
   CHECK(less.root()["meshes"].items().empty());
   CHECK(now.owned.goes == Owned::Part{});
-  Rig again = sample_rig(diagnostics);
+  Rig again = sample();
   const File more = replaced_by(less, now, again, "replace_more_after");
   CHECK(more.root()["nodes"].items().size() == file.root()["nodes"].items().size());
   CHECK(more.whole.size() == file.whole.size());
 }
 
 TEST_CASE("gltf rig_replace: what others put on a node and under it stays with it") {
-  Diagnostics diagnostics;
-  Rig rig = sample_rig(diagnostics);
+  Rig rig = sample();
   const File built = written(empty_file(), rig, "replace_additions");
   const Rig before = read_one(built);
   const scene::NodeId control = with_role(before, "control");
@@ -142,7 +148,7 @@ TEST_CASE("gltf rig_replace: what others put on a node and under it stays with i
   const File file = opened(json, bin_of(built), "replace_additions");
 
   const Rig old = read_one(file);
-  Rig fresh = sample_rig(diagnostics);
+  Rig fresh = sample();
   const File after = replaced_by(file, old, fresh, "broken/replace_additions_after");
   CHECK(fresh.nodes == old.nodes);
   const json::Value kept = node(after, holder);
@@ -168,8 +174,7 @@ TEST_CASE("gltf rig_replace: what others put on a node and under it stays with i
 }
 
 TEST_CASE("gltf rig_replace: a joint that a skin of others is bound to stays") {
-  Diagnostics diagnostics;
-  Rig rig = sample_rig(diagnostics);
+  Rig rig = sample();
   const File built = written(empty_file(), rig, "replace_skin");
   const int tip = rig.nodes[joint_named(rig, "tip").index];
   std::string json(built.json.text());
@@ -194,7 +199,7 @@ TEST_CASE("gltf rig_replace: a joint that a skin of others is bound to stays") {
 
 TEST_CASE("gltf rig_replace: another rig of the file keeps its text and its nodes") {
   Diagnostics diagnostics;
-  Rig first = sample_rig(diagnostics);
+  Rig first = sample();
   const File one = written(empty_file(), first, "replace_first");
   RigMaker maker(1);
   maker.joint("other", -1, {{1, 0, 0}, {}, {1, 1, 1}});

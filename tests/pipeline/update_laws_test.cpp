@@ -87,6 +87,14 @@ std::vector<Kept> kept_in(const Shot& shot) {
   return out;
 }
 
+/// How much a shot keeps, without the switches of limbs: where a limb takes a chain's place, rigc
+/// sets its switch, and keeps how it stood.
+std::size_t count_of(const Shot& shot) {
+  const std::vector<Kept> kept = kept_in(shot);
+  return static_cast<std::size_t>(std::count_if(
+      kept.begin(), kept.end(), [](const Kept& one) { return one.what != "value ik_fk"; }));
+}
+
 double length_at(const std::vector<double>& n, std::size_t at) {
   return std::sqrt(n[at] * n[at] + n[at + 1] * n[at + 1] + n[at + 2] * n[at + 2]);
 }
@@ -239,7 +247,7 @@ TEST_CASE("update laws: whatever a template becomes, every key and value stays i
           ordered_json::parse(result.json).dump().find("\"converted\":true") != std::string::npos;
       const Shot after = test::read_shot(s.shot);
       CHECK(lost(original, after, turns) == "");
-      CHECK(kept_in(original).size() == kept_in(after).size());
+      CHECK(count_of(original) == count_of(after));
       CHECK(is_clean(s.shot));
       orphans += orphans_in(after);
     }
