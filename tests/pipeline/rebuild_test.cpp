@@ -258,6 +258,7 @@ TEST_CASE("strip: a model is what it was, byte for byte") {
     Story s("strip_" + std::to_string(stripped++));
     test::write_biped(s.folder, 1);
     test::build_rig(s.folder + "/biped.yaml", s.shot, model);
+    test::made_from(s.shot, model);
     test::animate(s.shot, 27, {2, 0.3, 0, 4});
     // With orphans, which go too.
     rebuild_with(s.shot, "", "arm_l=off");
@@ -287,6 +288,7 @@ TEST_CASE("strip: a model without clips of ours has the bytes of before") {
   Story s("strip_bytes");
   test::write_biped(s.folder, 1);
   test::build_rig(s.folder + "/biped.yaml", s.shot, model);
+  test::made_from(s.shot, model);
   SUBCASE("as built") {}
   SUBCASE("updated") {
     test::write_biped(s.folder, 2, test::without_clavicle());
