@@ -87,8 +87,8 @@ std::string faults(const std::string& path) {
 
 std::size_t channels_in(const std::string& path) {
   std::size_t count = 0;
-  for (const auto& clip : test::load_character(path).json["animations"])
-    count += clip["channels"].size();
+  test::Character character = test::load_character(path);
+  for (const auto& clip : character.json["animations"]) count += clip["channels"].size();
   return count;
 }
 
