@@ -81,14 +81,6 @@ bool upgrade_tags(const std::vector<std::pair<std::string, int>>& versions,
   return good;
 }
 
-/// A file that is changed in place is locked before it is read.
-bool lock_file(const FileWork& work, bool writes, std::optional<FileLock>& lock,
-               Diagnostics& diagnostics) {
-  if (!writes || work.input != work.output) return true;
-  lock = FileLock::take(work.input, diagnostics);
-  return lock.has_value();
-}
-
 /// Writes what a work made of a file.
 bool write_work(gltf::Patch& patch, const gltf::File& file, const FileWork& work,
                 std::uint64_t& bytes, Diagnostics& diagnostics) {
@@ -118,7 +110,7 @@ std::optional<Opened> open_rigs(const std::string& path, Diagnostics& diagnostic
 std::optional<Rebuilt> rebuild(const RebuildRequest& request, const FileWork& work,
                                Diagnostics& diagnostics) {
   std::optional<FileLock> lock;
-  if (!lock_file(work, !request.plan, lock, diagnostics)) return std::nullopt;
+  if (!request.plan && !lock_input(work, lock, diagnostics)) return std::nullopt;
   catalog::Catalogue catalogue;
   if (!add_modules(request.paths, catalogue, diagnostics)) return std::nullopt;
   const auto file = Recompilation::open(work.input, diagnostics);
@@ -151,7 +143,7 @@ std::optional<Rebuilt> rebuild(const RebuildRequest& request, const FileWork& wo
 std::optional<Removed> strip(const std::vector<std::string>& rigs, const FileWork& work,
                              Diagnostics& diagnostics) {
   std::optional<FileLock> lock;
-  if (!lock_file(work, true, lock, diagnostics)) return std::nullopt;
+  if (!lock_input(work, lock, diagnostics)) return std::nullopt;
   const auto opened = open_rigs(work.input, diagnostics);
   if (!opened) return std::nullopt;
   const auto chosen = choose(opened->rigs, rigs, work.input, diagnostics);
@@ -178,7 +170,7 @@ std::optional<Removed> strip(const std::vector<std::string>& rigs, const FileWor
 std::optional<Removed> prune(const std::vector<std::string>& rigs, const FileWork& work,
                              Diagnostics& diagnostics) {
   std::optional<FileLock> lock;
-  if (!lock_file(work, true, lock, diagnostics)) return std::nullopt;
+  if (!lock_input(work, lock, diagnostics)) return std::nullopt;
   const auto opened = open_rigs(work.input, diagnostics);
   if (!opened) return std::nullopt;
   const auto chosen = choose(opened->rigs, rigs, work.input, diagnostics);
@@ -198,7 +190,10 @@ std::optional<Removed> prune(const std::vector<std::string>& rigs, const FileWor
     next.orphans.clear();
     replacements.push_back({&rig, &next, gltf::own_nodes(rig), diagnostics.sources()});
   }
-  if (replacements.empty()) return out;
+  if (replacements.empty()) {
+    if (!pass_on(work, out.bytes, diagnostics)) return std::nullopt;
+    return out;
+  }
   if (!keep_original(work, opened->file.whole, diagnostics)) return std::nullopt;
   gltf::Patch patch(opened->file);
   if (!gltf::replace_rigs(patch, opened->file, replacements, diagnostics)) return std::nullopt;

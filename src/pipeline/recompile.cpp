@@ -79,6 +79,26 @@ bool check_tolerance(const std::string& path, const RigReport& report, double to
 
 }  // namespace
 
+bool is_in_place(const FileWork& work) {
+  if (work.input == work.output) return true;
+  const auto from = resolved_path(work.input);
+  return from && from == resolved_path(work.output);
+}
+
+bool lock_input(const FileWork& work, std::optional<FileLock>& lock, Diagnostics& diagnostics) {
+  if (!is_in_place(work)) return check_output_name(work.output, diagnostics);
+  lock = FileLock::take(work.input, diagnostics);
+  return lock.has_value();
+}
+
+bool pass_on(const FileWork& work, std::uint64_t& bytes, Diagnostics& diagnostics) {
+  if (is_in_place(work)) return true;
+  const auto file = gltf::open(work.input, diagnostics);
+  if (!file) return false;
+  gltf::Patch patch(*file);
+  return write_output(patch, *file, work.output, bytes, diagnostics);
+}
+
 Largest largest_difference(const RigReport& report) {
   Largest out;
   for (const ClipComparison& clip : report.clips) {

@@ -14,6 +14,14 @@
 
 namespace rigc::pipeline {
 
+/// Whether a work replaces its input, however the paths are spelled.
+bool is_in_place(const FileWork& work);
+/// A file that is replaced in place is locked before it is read; false where that cannot be had.
+bool lock_input(const FileWork& work, std::optional<FileLock>& lock, Diagnostics& diagnostics);
+/// A file that needs nothing: written to the output, with what it names, where that is another
+/// file.
+bool pass_on(const FileWork& work, std::uint64_t& bytes, Diagnostics& diagnostics);
+
 /// What is asked of a recompilation whatever made it.
 struct CarryOptions {
   bool plan = false;    ///< find out and write nothing

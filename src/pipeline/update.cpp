@@ -223,10 +223,7 @@ std::optional<NewRig> Updater::next_rig(const Recompilation& file, const gltf::R
 FileResult Updater::update(const FileWork& work, Diagnostics& diagnostics) const {
   FileResult result;
   std::optional<FileLock> lock;
-  if (!settings_.plan && work.input == work.output) {
-    lock = FileLock::take(work.input, diagnostics);
-    if (!lock) return result;
-  }
+  if (!settings_.plan && !lock_input(work, lock, diagnostics)) return result;
   const auto summaries = gltf::read_rig_summaries(work.input, diagnostics);
   if (!summaries) return result;
   bool concerned = false, named = false, good = true;
@@ -241,6 +238,7 @@ FileResult Updater::update(const FileWork& work, Diagnostics& diagnostics) const
     result.summary = summaries->empty() ? "has no rig"
                      : named            ? "is up to date"
                                         : "has no rig of that name";
+    if (!settings_.plan) pass_on(work, result.bytes, diagnostics);
     return result;
   }
   Diagnostics reading;

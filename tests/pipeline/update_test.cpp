@@ -8,8 +8,11 @@
 #include <algorithm>
 
 #include "base/files.h"
+#include "pipeline/bake_file.h"
 #include "pipeline/character_helpers.h"
+#include "pipeline/codes.h"
 #include "pipeline/shot_helpers.h"
+#include "pipeline/update_codes.h"
 
 namespace rigc {
 namespace {
@@ -130,6 +133,53 @@ TEST_CASE("update: keys of a removed control become orphans and come back with i
   bool exact = false;
   CHECK(test::motion_difference(original, s.after, "", &exact) == 0);
   CHECK(exact);
+}
+
+TEST_CASE("update: a file that needs nothing is passed on where another output is asked for") {
+  Scenario s("passed_on");
+  s.build(limb(1));
+  pipeline::UpdateSettings settings;
+  settings.paths.templates = {s.folder};
+  Diagnostics diagnostics;
+  const auto updater = pipeline::Updater::make(settings, diagnostics);
+  REQUIRE(updater);
+  const std::string other = s.folder + "/other.glb";
+  const auto result = updater->update({s.shot, other, ""}, diagnostics);
+  CHECK(result.outcome == pipeline::FileResult::Outcome::unchanged);
+  CHECK(test::bytes_of(other) == test::bytes_of(s.shot));
+  updater->update({s.shot, s.folder + "/other.txt", ""}, diagnostics);
+  CHECK(diagnostics.all().back().code == &pipeline::codes::kUnknownFormat);
+}
+
+TEST_CASE("update: keys that a bake put on joints are said to be of the old rig") {
+  Scenario s("baked");
+  s.build(limb(1));
+  test::animate(s.shot, 4);
+  pipeline::BakeRequest bake;
+  bake.file = s.shot;
+  bake.keep_rig = true;
+  Diagnostics diagnostics;
+  REQUIRE(pipeline::bake_file(bake, s.shot, diagnostics));
+  std::string moved = limb(2);
+  const std::string at = "at: [0.5, 1, -0.1]";
+  moved.replace(moved.find(at), at.size(), "at: [0.5, 1, -0.2]");
+  test::write_text(s.folder + "/limb.yaml", moved);
+  pipeline::UpdateSettings settings;
+  settings.paths.templates = {s.folder};
+  for (const bool take : {false, true}) {
+    CAPTURE(take);
+    settings.take_skeleton = take;
+    settings.plan = true;
+    Diagnostics said;
+    const auto updater = pipeline::Updater::make(settings, said);
+    REQUIRE(updater);
+    updater->update({s.shot, s.shot, ""}, said);
+    CHECK(said.ok());
+    const bool stale = std::any_of(said.all().begin(), said.all().end(), [](const auto& one) {
+      return one.code == &pipeline::codes::kStaleBake;
+    });
+    CHECK(stale == take);
+  }
 }
 
 }  // namespace rigc

@@ -10,7 +10,7 @@ namespace rigc {
 namespace {
 
 using anim::Path;
-using update::AttributeChange;
+using catalog::AttributeChange;
 using update::Conversion;
 using update::Destination;
 using update::Property;
