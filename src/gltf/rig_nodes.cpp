@@ -137,7 +137,10 @@ std::string node_text(const Rig& rig, const NodePlan& plan, NodeId id, int mesh)
   if (!node.name.empty()) add_member(text, "name", json::quote(node.name));
   const bool posed = std::any_of(rig.posed.begin(), rig.posed.end(),
                                  [&](const Posed& one) { return one.plug.node == id; });
-  write_local(rig.scene.local(id), posed, [&](std::string_view name, const std::string& value) {
+  math::Trs local = rig.scene.local(id);
+  if (posed)
+    local.rotation = std::get<math::Quat>(rig.scene.value({id, scene::transform::kRotation}));
+  write_local(local, posed, [&](std::string_view name, const std::string& value) {
     add_member(text, name, value);
   });
   if (mesh >= 0) add_member(text, "mesh", std::to_string(mesh));

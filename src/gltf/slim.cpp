@@ -8,6 +8,7 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "base/text.h"
@@ -16,6 +17,12 @@
 
 namespace rigc::gltf {
 namespace {
+
+/// Values go through files and back many times: what was normalised keeps its bits.
+math::Quat normalised_once(const math::Quat& q) {
+  constexpr double kRounding = 1e-15;
+  return std::abs(dot(q, q) - 1) <= kRounding ? q : math::normalised(q);
+}
 
 void copy_numbers(json::Writer& writer, const json::Value& object,
                   std::initializer_list<const char*> keys) {
@@ -95,7 +102,7 @@ SlimNode slim_node(const tinygltf::Node& from) {
   }
   if (const auto& t = from.translation; !t.empty()) node.local.translation = {t[0], t[1], t[2]};
   if (const auto& r = from.rotation; !r.empty())
-    node.local.rotation = math::normalised(math::Quat{r[0], r[1], r[2], r[3]});
+    node.local.rotation = normalised_once({r[0], r[1], r[2], r[3]});
   if (const auto& s = from.scale; !s.empty()) node.local.scale = {s[0], s[1], s[2]};
   node.matrix = math::compose(node.local);
   return node;

@@ -92,7 +92,7 @@ inline Vec3 rotate(Quat q, Vec3 v) {
 inline Quat conjugate(Quat q) { return {-q.x, -q.y, -q.z, q.w}; }
 inline double dot(Quat a, Quat b) { return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; }
 inline Quat operator-(Quat a) { return {-a.x, -a.y, -a.z, -a.w}; }
-/// Unit length, identity where `q` is shorter than 1e-30. Twice gives the same bits as once.
+/// Unit length, identity where `q` is shorter than 1e-30.
 Quat normalised(Quat q);
 /// The nearer way round; `t` in 0..1. Source: Shoemake 1985.
 Quat slerp(Quat a, Quat b, double t);

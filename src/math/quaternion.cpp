@@ -9,8 +9,6 @@ namespace rigc::math {
 
 Quat normalised(Quat q) {
   const double squares = dot(q, q);
-  // What was normalised once stays: values go through files and back many times.
-  if (std::abs(squares - 1) <= 1e-15) return q;
   if (squares > 1e-60 && squares < 1e300) {
     const double size = std::sqrt(squares);
     return {q.x / size, q.y / size, q.z / size, q.w / size};

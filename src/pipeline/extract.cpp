@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "gltf/skeletons.h"
 #include "pipeline/codes.h"
+#include "tags/settings.h"
 #include "templates/format.h"
 #include "templates/write.h"
 #include "templates/write_skeleton.h"
@@ -132,7 +133,9 @@ std::optional<Extracted> extract(const ExtractRequest& request, Diagnostics& dia
   out.version = options->version;
   out.joints = rig->skeleton.joints.size();
   for (const tags::TaggedJoint& joint : rig->skeleton.joints) out.commands += joint.commands.size();
-  out.yaml = templates::write(rig->skeleton, catalogue, *options);
+  tags::TaggedSkeleton skeleton = rig->skeleton;
+  if (!tags::apply(skeleton, rig->settings, diagnostics)) return std::nullopt;
+  out.yaml = templates::write(skeleton, catalogue, *options);
   return out;
 }
 

@@ -148,7 +148,6 @@ std::optional<Removed> strip(const std::vector<std::string>& rigs, const FileWor
   if (!opened) return std::nullopt;
   const auto chosen = choose(opened->rigs, rigs, work.input, diagnostics);
   if (!chosen) return std::nullopt;
-  if (!keep_original(work, opened->file.whole, diagnostics)) return std::nullopt;
   Removed out;
   std::vector<gltf::Rig> models, characters;
   for (const std::size_t index : *chosen) {
@@ -194,7 +193,6 @@ std::optional<Removed> prune(const std::vector<std::string>& rigs, const FileWor
     if (!pass_on(work, out.bytes, diagnostics)) return std::nullopt;
     return out;
   }
-  if (!keep_original(work, opened->file.whole, diagnostics)) return std::nullopt;
   gltf::Patch patch(opened->file);
   if (!gltf::replace_rigs(patch, opened->file, replacements, diagnostics)) return std::nullopt;
   out.channels = gltf::drop_channels(patch, opened->file, gone);

@@ -160,8 +160,8 @@ bool Recompilation::compile(std::size_t index, NewRig next, const catalog::Catal
   for (const auto& [module, version] : old.modules)
     if (const catalog::Descriptor* descriptor = catalogue.find(module))
       remap.changes[module] = catalog::attribute_changes(*descriptor, version);
-  compiled->carrier = std::make_unique<Carrier>(old, compiled->fresh, clips_, used_, catalogue,
-                                                std::move(remap));
+  compiled->carrier =
+      std::make_unique<Carrier>(old, compiled->fresh, clips_, used_, catalogue, std::move(remap));
   compiled->carrier->run();
   report.global = compiled->fresh.skeleton.global;
   report.carry = compiled->carrier->report();
@@ -196,7 +196,6 @@ bool Recompilation::write(const FileWork& work, std::uint64_t& bytes, Diagnostic
     std::move(own.begin(), own.end(), std::back_inserter(edits));
   }
   gltf::edit_channels(patch, *file_, edits);
-  if (!keep_original(work, file_->whole, diagnostics)) return false;
   return write_output(patch, *file_, work.output, bytes, diagnostics);
 }
 

@@ -82,8 +82,8 @@ bool same(const eval::Program& a, const eval::Program& b) {
          same(a.inputs, b.inputs) && same(a.outputs, b.outputs) &&
          std::equal(a.instructions.begin(), a.instructions.end(), b.instructions.begin(),
                     b.instructions.end(), steps) &&
-         std::equal(a.constants.begin(), a.constants.end(), b.constants.begin(),
-                    b.constants.end(), constants);
+         std::equal(a.constants.begin(), a.constants.end(), b.constants.begin(), b.constants.end(),
+                    constants);
 }
 
 /// Angle of the rotation that leads from one frame to another, degrees.

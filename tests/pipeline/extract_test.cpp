@@ -16,6 +16,7 @@
 #include "support/random_template.h"
 #include "support/rig.h"
 #include "tags/dump.h"
+#include "tags/settings.h"
 
 namespace rigc {
 namespace {
@@ -34,6 +35,8 @@ std::string scene_text(const gltf::Rig& rig) {
 /// What a rig is built from, without where it was written.
 std::string tags_text(const gltf::Rig& rig) {
   tags::TaggedSkeleton skeleton = rig.skeleton;
+  Diagnostics diagnostics;
+  REQUIRE(tags::apply(skeleton, rig.settings, diagnostics));
   skeleton.templates.clear();
   skeleton.module_pins.clear();
   skeleton.character = {};  // its height is known only to the last bits
