@@ -234,11 +234,11 @@ std::string pointer_escaped(std::string_view step) {
   return out;
 }
 
-std::optional<ClipFile> read_clips(const File& file, Diagnostics& diagnostics) {
+std::optional<ClipFile> read_clips(const File& file, Diagnostics& diagnostics, const Slim* known) {
   const std::size_t errors = diagnostics.errors();
-  const auto slim = read_slim(file, diagnostics);
-  if (!slim) return std::nullopt;
-  ClipFile result = ClipReader(file, *slim, diagnostics).read();
+  const auto own = known ? std::nullopt : read_slim(file, diagnostics);
+  if (!known && !own) return std::nullopt;
+  ClipFile result = ClipReader(file, known ? *known : *own, diagnostics).read();
   if (diagnostics.errors() != errors) return std::nullopt;
   return result;
 }

@@ -13,6 +13,8 @@
 
 namespace rigc::gltf {
 
+struct Slim;
+
 /// All animations: node channels and KHR_animation_pointer channels at /nodes/N/extras/<attribute>,
 /// /nodes/N/translation and so on; other pointers and morph weights are counted in `other_channels`
 /// and left alone.
@@ -20,7 +22,9 @@ struct ClipFile {
   std::vector<anim::Clip> clips;
   std::vector<int> other_channels;  ///< by clip
 };
-std::optional<ClipFile> read_clips(const File& file, Diagnostics& diagnostics);
+/// `known`: of this file with its animations, where that has been read already.
+std::optional<ClipFile> read_clips(const File& file, Diagnostics& diagnostics,
+                                   const Slim* known = nullptr);
 
 /// What becomes of animation `clip.source_animation` of a file (-1: a new one): channels with the
 /// target of one that the clip brings, and those whose index is in `dropped_channels`, go; the

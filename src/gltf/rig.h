@@ -16,6 +16,8 @@
 
 namespace rigc::gltf {
 
+struct Slim;
+
 /// One executed command, for inspect and for messages.
 struct CommandRecord {
   JointKey holder;
@@ -111,9 +113,10 @@ enum class Origins { templates, file };
 
 /// All rigs of a file, ordered by id, with what animators set without keying (transforms, extras)
 /// taken over into the scenes. A file without any gives an empty list. A RIGC_rig that lies about
-/// itself is an error.
+/// itself is an error. `known`: of this file, where that has been read already.
 std::optional<std::vector<Rig>> read_rigs(const File& file, Diagnostics& diagnostics,
-                                          Origins origins = Origins::templates);
+                                          Origins origins = Origins::templates,
+                                          const Slim* known = nullptr);
 
 /// What remains of a rig that is taken out of its file.
 enum class Strip {

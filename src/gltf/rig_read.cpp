@@ -172,15 +172,16 @@ std::optional<std::vector<Text>> read_texts(const File& file, const json::Value&
 }  // namespace
 
 std::optional<std::vector<Rig>> read_rigs(const File& file, Diagnostics& diagnostics,
-                                          Origins origins) {
+                                          Origins origins, const Slim* known) {
   const json::Value extension = file.root()["extensions"]["RIGC_rig"];
   if (!extension) return std::vector<Rig>();
   auto texts = read_texts(file, extension, origins, diagnostics);
   const auto nodes = file.root()["nodes"].items();
   const auto identities = read_identities(file, nodes, diagnostics);
   if (!texts || !identities) return std::nullopt;
-  const auto slim = read_slim(file, diagnostics, false);
-  if (!slim) return std::nullopt;
+  const auto own = known ? std::nullopt : read_slim(file, diagnostics, false);
+  if (!known && !own) return std::nullopt;
+  const Slim* const slim = known ? known : &*own;
   std::set<int> taken;
   bool complete = true;
   std::vector<Rig> rigs;

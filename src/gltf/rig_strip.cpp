@@ -188,6 +188,8 @@ void clean_nodes(Patch& patch, const std::vector<Value>& nodes, const Going& goi
 
 /// The texts of the rigs that stay; empty where none does.
 std::string remaining_rigs(const Patch& patch, const Rigs& stripped) {
+  const Value known = patch.file().root()["extensions"]["RIGC_rig"]["rigs"];
+  if (known.size() == stripped.size()) return {};
   const std::string extension = patch.root_extension("RIGC_rig");
   Diagnostics none;
   const auto document = json::parse(extension, "", 0, none);

@@ -442,20 +442,22 @@ std::optional<std::vector<ClipComparison>> Carrier::compare(Diagnostics& diagnos
     if (move.curve) moved.curve = *move.curve;
     now[move.clip].channels.push_back(std::move(moved));
   }
-  std::vector<ClipComparison> out;
-  const auto add = [&](const std::string& name, const anim::Clip& before, const anim::Clip& after) {
-    auto comparison =
-        update::compare({&old_.scene, &old_.nodes, &before}, {&fresh_.scene, &numbers, &after},
-                        joints, old_.skeleton.character.unit, diagnostics);
-    if (!comparison) return false;
-    out.push_back({name, *std::move(comparison)});
-    return true;
-  };
-  if (!add({}, {}, {})) return std::nullopt;
   std::vector<bool> concerned(clips_.size(), false);
   for (const Move& move : moves_) concerned[move.clip] = true;
-  for (std::size_t i = 0; i < clips_.size(); ++i)
-    if (concerned[i] && !add(clips_[i].name, clips_[i], now[i])) return std::nullopt;
+  const anim::Clip none;
+  std::vector<update::ClipPair> pairs = {{&none, &none}};  // what stands without a clip
+  std::vector<std::string> names = {{}};
+  for (std::size_t i = 0; i < clips_.size(); ++i) {
+    if (!concerned[i]) continue;
+    pairs.push_back({&clips_[i], &now[i]});
+    names.push_back(clips_[i].name);
+  }
+  auto comparisons = update::compare({&old_.scene, &old_.nodes}, {&fresh_.scene, &numbers}, pairs,
+                                     joints, old_.skeleton.character.unit, diagnostics);
+  if (!comparisons) return std::nullopt;
+  std::vector<ClipComparison> out;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    out.push_back({names[i], std::move((*comparisons)[i])});
   return out;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "gltf/clips.h"
+#include "gltf/slim.h"
 #include "pipeline/update_codes.h"
 
 namespace rigc::pipeline {
@@ -118,7 +119,9 @@ std::unique_ptr<Recompilation> Recompilation::open(const std::string& path,
   auto out = std::make_unique<Recompilation>();
   out->file_ = gltf::open(path, diagnostics);
   if (!out->file_) return nullptr;
-  auto rigs = gltf::read_rigs(*out->file_, diagnostics);
+  const auto slim = gltf::read_slim(*out->file_, diagnostics);
+  if (!slim) return nullptr;
+  auto rigs = gltf::read_rigs(*out->file_, diagnostics, gltf::Origins::templates, &*slim);
   if (!rigs) return nullptr;
   if (rigs->empty()) {
     diagnostics.report(codes::kNoRigHere, Place(path), "the file has no rig",
@@ -128,7 +131,7 @@ std::unique_ptr<Recompilation> Recompilation::open(const std::string& path,
   out->rigs_ = *std::move(rigs);
   for (const gltf::Rig& rig : out->rigs_)
     if (!check_evaluates(*out->file_, rig, diagnostics)) return nullptr;
-  auto clips = gltf::read_clips(*out->file_, diagnostics);
+  auto clips = gltf::read_clips(*out->file_, diagnostics, &*slim);
   if (!clips) return nullptr;
   out->clips_ = std::move(clips->clips);
   out->used_ = gltf::animated_nodes(*out->file_);

@@ -43,19 +43,24 @@ std::vector<double> times_of(const std::vector<const std::vector<ClipInput>*>& s
   return thinned;
 }
 
-/// One side: its program, and which inputs of it are animated.
+/// One side: its program, and what each clip animates of it.
 struct Side {
-  std::vector<ClipInput> inputs;
   std::optional<eval::Program> program;
+  std::vector<scene::Plug> plugs;             ///< inputs of the program, sorted
+  std::vector<std::vector<ClipInput>> clips;  ///< inputs by clip
 };
 
-bool prepare(const Player& player, const std::vector<JointPair>& joints, bool is_old, Side& side,
-             Diagnostics& diagnostics) {
-  side.inputs = eval::clip_inputs(*player.scene, *player.nodes, *player.clip);
+bool prepare(const Player& player, const std::vector<const anim::Clip*>& clips,
+             const std::vector<scene::NodeId>& joints, Side& side, Diagnostics& diagnostics) {
+  for (const anim::Clip* clip : clips) {
+    side.clips.push_back(eval::clip_inputs(*player.scene, *player.nodes, *clip));
+    for (const ClipInput& input : side.clips.back()) side.plugs.push_back(input.plug);
+  }
+  std::sort(side.plugs.begin(), side.plugs.end());
+  side.plugs.erase(std::unique(side.plugs.begin(), side.plugs.end()), side.plugs.end());
   eval::Request request;
-  for (const ClipInput& input : side.inputs) request.inputs.push_back(input.plug);
-  for (const JointPair& joint : joints)
-    request.outputs.push_back({is_old ? joint.old : joint.fresh, transform::kWorld});
+  request.inputs = side.plugs;
+  for (const scene::NodeId joint : joints) request.outputs.push_back({joint, transform::kWorld});
   side.program = eval::compile(*player.scene, request, diagnostics);
   return side.program.has_value();
 }
@@ -100,13 +105,21 @@ math::Affine matrix_at(const double* n) {
   return {{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}}, {n[9], n[10], n[11]}};
 }
 
-/// Runs both programs over blocks of times and adds up what differs.
+/// Runs both programs over blocks of times of one clip and adds up what differs.
 class Comparer {
  public:
-  Comparer(const Side& old, const Side& fresh, const std::vector<JointPair>& joints, double unit)
-      : old_(old), fresh_(fresh), to_mm_(1000 / unit) {
+  Comparer(const Side& old, const Side& fresh, std::size_t clip, bool same_programs,
+           const std::vector<JointPair>& joints, double unit)
+      : old_(old),
+        fresh_(fresh),
+        old_inputs_(old.clips[clip]),
+        fresh_inputs_(fresh.clips[clip]),
+        same_programs_(same_programs),
+        to_mm_(1000 / unit) {
     for (const JointPair& joint : joints) out_.joints.push_back({joint.name, 0, 0, 0, 0});
-    for (std::size_t i = 0; i < fresh.inputs.size(); ++i) same_.push_back(same_as(i));
+    for (std::size_t i = 0; i < fresh_inputs_.size(); ++i) same_.push_back(same_as(i));
+    old_places_ = places(old_, old_inputs_);
+    fresh_places_ = places(fresh_, fresh_inputs_);
   }
 
   Comparison run(const std::vector<double>& times) {
@@ -131,16 +144,26 @@ class Comparer {
 
  private:
   bool is_same() const {
-    if (old_.inputs.size() != fresh_.inputs.size()) return false;
-    for (std::size_t i = 0; i < same_.size(); ++i)
-      if (!same_keys(old_.inputs[i], fresh_.inputs[i])) return false;
-    return same(*old_.program, *fresh_.program);
+    if (!same_programs_ || old_places_ != fresh_places_) return false;
+    for (std::size_t i = 0; i < fresh_inputs_.size(); ++i)
+      if (!same_keys(old_inputs_[i], fresh_inputs_[i])) return false;
+    return true;
+  }
+
+  /// Which inputs of the program a clip's inputs are.
+  static std::vector<std::size_t> places(const Side& side, const std::vector<ClipInput>& inputs) {
+    std::vector<std::size_t> out;
+    for (const ClipInput& input : inputs) {
+      const auto at = std::lower_bound(side.plugs.begin(), side.plugs.end(), input.plug);
+      out.push_back(static_cast<std::size_t>(at - side.plugs.begin()));
+    }
+    return out;
   }
 
   /// The input of the old rig with the same keys, -1: none.
   int same_as(std::size_t index) const {
-    for (std::size_t i = 0; i < old_.inputs.size(); ++i)
-      if (same_keys(old_.inputs[i], fresh_.inputs[index])) return static_cast<int>(i);
+    for (std::size_t i = 0; i < old_inputs_.size(); ++i)
+      if (same_keys(old_inputs_[i], fresh_inputs_[index])) return static_cast<int>(i);
     return -1;
   }
 
@@ -154,22 +177,22 @@ class Comparer {
   }
 
   void set(eval::Instance& old, eval::Instance& fresh, int lane, double time) {
-    sampled_.resize(old_.inputs.size() * 4);
-    for (std::size_t i = 0; i < old_.inputs.size(); ++i) {
+    sampled_.resize(old_inputs_.size() * 4);
+    for (std::size_t i = 0; i < old_inputs_.size(); ++i) {
       double* const numbers = sampled_.data() + 4 * i;
-      const anim::Curve& curve = *old_.inputs[i].curve;
-      anim::sample(curve, is_rotation(old_.inputs[i]), time, numbers);
-      eval::set_lane(old.input(i), lane, numbers, curve.width);
+      const anim::Curve& curve = *old_inputs_[i].curve;
+      anim::sample(curve, is_rotation(old_inputs_[i]), time, numbers);
+      eval::set_lane(old.input(old_places_[i]), lane, numbers, curve.width);
     }
-    for (std::size_t i = 0; i < fresh_.inputs.size(); ++i) {
-      const anim::Curve& curve = *fresh_.inputs[i].curve;
+    for (std::size_t i = 0; i < fresh_inputs_.size(); ++i) {
+      const anim::Curve& curve = *fresh_inputs_[i].curve;
       double own[4];
       const double* numbers = own;
       if (same_[i] >= 0)
         numbers = sampled_.data() + 4 * same_[i];
       else
-        anim::sample(curve, is_rotation(fresh_.inputs[i]), time, own);
-      eval::set_lane(fresh.input(i), lane, numbers, curve.width);
+        anim::sample(curve, is_rotation(fresh_inputs_[i]), time, own);
+      eval::set_lane(fresh.input(fresh_places_[i]), lane, numbers, curve.width);
     }
   }
 
@@ -192,25 +215,44 @@ class Comparer {
 
   const Side& old_;
   const Side& fresh_;
+  const std::vector<ClipInput>& old_inputs_;
+  const std::vector<ClipInput>& fresh_inputs_;
+  bool same_programs_;
   double to_mm_;
-  std::vector<int> same_;        ///< by input of the new rig
-  std::vector<double> sampled_;  ///< [inputs of the old rig][4]
+  std::vector<std::size_t> old_places_, fresh_places_;  ///< by input of the clip: the program's
+  std::vector<int> same_;                               ///< by input of the new rig
+  std::vector<double> sampled_;                         ///< [inputs of the old rig][4]
   Comparison out_;
 };
 
 }  // namespace
 
-std::optional<Comparison> compare(const Player& old, const Player& fresh,
-                                  const std::vector<JointPair>& joints, double unit,
-                                  Diagnostics& diagnostics) {
+std::optional<std::vector<Comparison>> compare(const Player& old, const Player& fresh,
+                                               const std::vector<ClipPair>& clips,
+                                               const std::vector<JointPair>& joints, double unit,
+                                               Diagnostics& diagnostics) {
+  std::vector<const anim::Clip*> old_clips, fresh_clips;
+  for (const ClipPair& clip : clips) {
+    old_clips.push_back(clip.old);
+    fresh_clips.push_back(clip.fresh);
+  }
+  std::vector<scene::NodeId> old_joints, fresh_joints;
+  for (const JointPair& joint : joints) {
+    old_joints.push_back(joint.old);
+    fresh_joints.push_back(joint.fresh);
+  }
   Side before, now;
-  if (!prepare(old, joints, true, before, diagnostics) ||
-      !prepare(fresh, joints, false, now, diagnostics))
+  if (!prepare(old, old_clips, old_joints, before, diagnostics) ||
+      !prepare(fresh, fresh_clips, fresh_joints, now, diagnostics))
     return std::nullopt;
-  std::size_t all = 0;
-  const std::vector<double> times = times_of({&before.inputs, &now.inputs}, all);
-  Comparison out = Comparer(before, now, joints, unit).run(times);
-  out.all_times = all;
+  const bool same_programs = same(*before.program, *now.program);
+  std::vector<Comparison> out;
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    std::size_t all = 0;
+    const std::vector<double> times = times_of({&before.clips[i], &now.clips[i]}, all);
+    out.push_back(Comparer(before, now, i, same_programs, joints, unit).run(times));
+    out.back().all_times = all;
+  }
   return out;
 }
 

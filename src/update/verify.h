@@ -12,11 +12,16 @@
 
 namespace rigc::update {
 
-/// A rig with a clip as it plays on it.
+/// A rig, and where its nodes are.
 struct Player {
   const scene::Scene* scene = nullptr;      ///< with what animators set
   const std::vector<int>* nodes = nullptr;  ///< glTF node of each scene node
-  const anim::Clip* clip = nullptr;
+};
+
+/// A clip as it plays on the old rig and on the new one.
+struct ClipPair {
+  const anim::Clip* old = nullptr;
+  const anim::Clip* fresh = nullptr;
 };
 
 /// A joint of both rigs.
@@ -40,11 +45,12 @@ struct Comparison {
 /// Most times of a clip that are compared.
 inline constexpr std::size_t kMostTimes = 2000;
 
-/// Evaluates both at the keys of the clips and midway, evenly thinned to kMostTimes; a clip without
-/// keys is compared once. `unit`: length in rig space of a metre. A rig that cannot be evaluated is
-/// reported.
-std::optional<Comparison> compare(const Player& old, const Player& fresh,
-                                  const std::vector<JointPair>& joints, double unit,
-                                  Diagnostics& diagnostics);
+/// Evaluates both for each pair of clips at their keys and midway, evenly thinned to kMostTimes; a
+/// clip without keys is compared once. Each rig is compiled once. `unit`: length in rig space of a
+/// metre. A rig that cannot be evaluated is reported.
+std::optional<std::vector<Comparison>> compare(const Player& old, const Player& fresh,
+                                               const std::vector<ClipPair>& clips,
+                                               const std::vector<JointPair>& joints, double unit,
+                                               Diagnostics& diagnostics);
 
 }  // namespace rigc::update

@@ -72,11 +72,12 @@ update::Comparison compare(const Rig& a, const anim::Clip& p, const Rig& b, cons
                            double unit = 1) {
   Diagnostics diagnostics;
   const auto out =
-      update::compare({&a.scene, &a.nodes, &p}, {&b.scene, &b.nodes, &q},
+      update::compare({&a.scene, &a.nodes}, {&b.scene, &b.nodes}, {{&p, &q}},
                       {{"base", a.base, b.base}, {"top", a.top, b.top}}, unit, diagnostics);
   REQUIRE_MESSAGE(out, render(diagnostics, false));
-  REQUIRE(out->joints.size() == 2);
-  return *out;
+  REQUIRE(out->size() == 1);
+  REQUIRE(out->front().joints.size() == 2);
+  return out->front();
 }
 
 bool is_zero(const update::Comparison& comparison) {
@@ -186,7 +187,7 @@ TEST_CASE("verify: a rig that cannot be evaluated is reported") {
   edit.connect({b.base, scene::transform::kTranslate}, {b.control, scene::transform::kTranslate});
   Diagnostics diagnostics;
   const anim::Clip none;
-  CHECK(!update::compare({&a.scene, &a.nodes, &none}, {&b.scene, &b.nodes, &none},
+  CHECK(!update::compare({&a.scene, &a.nodes}, {&b.scene, &b.nodes}, {{&none, &none}},
                          {{"base", a.base, b.base}}, 1, diagnostics));
   CHECK(!diagnostics.ok());
 }
