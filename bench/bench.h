@@ -14,6 +14,7 @@ void add_json_benchmarks();
 void add_stage_benchmarks();
 void add_eval_benchmarks();
 void add_batch_benchmarks();
+void add_update_benchmarks();
 
 /// Runs a program to its end, its stdout thrown away; true where it ended with status 0.
 bool run_process(std::vector<std::string> words);

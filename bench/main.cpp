@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   rigc::bench::add_stage_benchmarks();
   rigc::bench::add_eval_benchmarks();
   rigc::bench::add_batch_benchmarks();
+  rigc::bench::add_update_benchmarks();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

@@ -536,8 +536,8 @@ std::string EditedTemplate::any_edit(Random& random) {
     if (!done.empty()) return done;
   }
   while (true) {
-    const Edit edit = edits[random.below(std::size(edits))];
-    const std::string done = (this->*edit)(random);
+    const Edit chosen = edits[random.below(std::size(edits))];
+    const std::string done = (this->*chosen)(random);
     if (!done.empty()) return done;
   }
 }
