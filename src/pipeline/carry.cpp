@@ -412,6 +412,8 @@ void Carrier::report_nodes() {
 }
 
 std::optional<std::vector<ClipComparison>> Carrier::compare(Diagnostics& diagnostics) const {
+  // A rig that is taken apart plays nothing.
+  if (old_.commands.empty() || fresh_.commands.empty()) return std::vector<ClipComparison>();
   std::vector<int> numbers(fresh_.scene.size());
   std::iota(numbers.begin(), numbers.end(), 0);
   std::map<JointKey, NodeId> fresh_joints, old_joints;
@@ -443,7 +445,11 @@ std::optional<std::vector<ClipComparison>> Carrier::compare(Diagnostics& diagnos
     now[move.clip].channels.push_back(std::move(moved));
   }
   std::vector<bool> concerned(clips_.size(), false);
-  for (const Move& move : moves_) concerned[move.clip] = true;
+  for (const Move& move : moves_) {
+    const std::size_t source = by_node_.at(clips_[move.clip].channels[move.channel].node);
+    // Clips on the model's joints alone play without the rig.
+    if (!is_foreign(source)) concerned[move.clip] = true;
+  }
   const anim::Clip none;
   std::vector<update::ClipPair> pairs = {{&none, &none}};  // what stands without a clip
   std::vector<std::string> names = {{}};

@@ -62,7 +62,8 @@ class Carrier {
   gltf::Replacement replacement(const Sources& sources) {
     return {&old_, &fresh_, places_, sources};
   }
-  /// Compares how the rigs play; empty where one cannot be evaluated.
+  /// Compares how the rigs play in clips on their controls, and without a clip; an empty list where
+  /// one of them is taken apart, nothing where one cannot be evaluated.
   std::optional<std::vector<ClipComparison>> compare(Diagnostics& diagnostics) const;
   /// To be called when the nodes of `fresh` are known.
   std::vector<gltf::ChannelEdit> edits() const;

@@ -79,6 +79,10 @@ std::string compared(const RigReport& report) {
 }
 
 void add_differences(std::string& text, const RigReport& report) {
+  if (report.clips.empty()) {
+    text += "    motion: not compared, because a rig that is taken apart plays nothing\n";
+    return;
+  }
   const Largest largest = largest_difference(report);
   const std::string how = compared(report);
   if (largest.mm == 0 && largest.degrees == 0) {
