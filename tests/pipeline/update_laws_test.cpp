@@ -197,8 +197,7 @@ double number_difference(const Shot& a, const Shot& b) {
 void rename_all(ordered_json& json, Random& random) {
   const auto rename = [&](ordered_json& list) {
     for (auto& item : list)
-      if (item.contains("name"))
-        item["name"] = fmt::format("{}.{}", random.chance(0.3) ? "same" : "n", random.below(1000));
+      if (item.contains("name")) item["name"] = fmt::format("n.{}", random.below(300));
   };
   for (const char* list : {"nodes", "animations", "meshes", "materials", "skins"})
     if (json.contains(list)) rename(json[list]);

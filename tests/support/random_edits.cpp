@@ -42,13 +42,15 @@ EditedTemplate::EditedTemplate(std::uint64_t seed, const EditOptions& options) :
     const std::size_t count = 3 + random.below(options.longest - 2);
     int parent = static_cast<int>(random.below(joints_.size()));
     Vec3 at = joints_[static_cast<std::size_t>(parent)].at + random.vector(0.4);
-    const Vec3 step = math::normalised(random.vector(1)) * random.number(0.15, 0.4);
+    const Vec3 way = math::normalised(random.vector(1));  // one draw a statement
+    const Vec3 step = way * random.number(0.15, 0.4);
     for (std::size_t i = 0; i < count; ++i) {
       joints_.push_back({{number("j")}, parent, at, 0, local, "l" + std::to_string(i), {}});
       parent = static_cast<int>(joints_.size()) - 1;
       at = at + step + random.vector(0.05);
     }
-    drive(local, any_drive(random), random);
+    const auto chosen = any_drive(random);
+    drive(local, chosen, random);
   }
 }
 
@@ -461,7 +463,8 @@ std::string EditedTemplate::change_feature(Random& random) {
 }
 
 std::string EditedTemplate::add_control(Random& random) {
-  joints_[any(joints_, random)].commands.push_back(control(random, false));
+  auto& joint = joints_[any(joints_, random)];
+  joint.commands.push_back(control(random, false));
   return "control added";
 }
 
