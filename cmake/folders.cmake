@@ -2,6 +2,7 @@
 # rigc_folder(NAME FOLDER...): the library of src/NAME, which may include the folders named after it.
 function(rigc_folder name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS src/${name}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX /kernels/kernels.cpp$)  # cmake/kernels.cmake
   if(NOT sources)
     add_library(rigc_${name} INTERFACE)
     set(scope INTERFACE)

@@ -11,7 +11,6 @@
 #include "eval/codes.h"
 #include "eval/cycle.h"
 #include "eval/emitter.h"
-#include "eval/kernels/limit.h"
 #include "eval/limits.h"
 #include "eval/program.h"
 #include "eval/rules.h"

@@ -5,8 +5,10 @@
 
 namespace rigc::eval {
 
-Instance::Instance(const Program& program)
-    : program_(program), registers_(static_cast<std::size_t>(program.rows) * kLanes, 0.0) {
+Instance::Instance(const Program& program, Isa isa)
+    : program_(program),
+      isa_(isa),
+      registers_(static_cast<std::size_t>(program.rows) * kLanes, 0.0) {
   for (const Program::Constant& c : program.constants) {
     double* at = registers_.data() + static_cast<std::size_t>(c.row) * kLanes;
     for (int lane = 0; lane < kLanes; ++lane) at[lane] = c.value;
@@ -23,8 +25,9 @@ const double* Instance::output(std::size_t index) const {
 
 void Instance::run() {
   for (const Instruction& i : program_.instructions) {
-    row(i.op).kernel({registers_.data(), i.out, program_.arguments.data() + i.first_argument,
-                      i.argument_count, program_.data.data() + i.data});
+    row(i.op, isa_)
+        .kernel({registers_.data(), i.out, program_.arguments.data() + i.first_argument,
+                 i.argument_count, program_.data.data() + i.data});
   }
 }
 

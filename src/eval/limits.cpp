@@ -60,6 +60,16 @@ std::string add_bounds(const std::vector<double>& bounds, std::array<LimitSpace,
 
 }  // namespace
 
+std::vector<double> limit_data(const LimitSpace& s) {
+  std::vector<double> data;
+  for (const math::Vec3& v : {s.min, s.max}) data.insert(data.end(), {v.x, v.y, v.z});
+  data.insert(data.end(), {s.axes.x, s.axes.y, s.axes.z, s.axes.w});
+  data.insert(data.end(), {s.origin.x, s.origin.y, s.origin.z});
+  data.insert(data.end(), {s.rest.x, s.rest.y, s.rest.z, s.rest.w});
+  for (const int axis : s.order) data.push_back(axis);
+  return data;
+}
+
 Limits::Limits(const scene::Scene& scene, Diagnostics& diagnostics) {
   for (const NodeId id : scene.nodes()) {
     if (scene[id].kind == scene::Kind::limits) read_limits(scene, id, diagnostics);

@@ -18,6 +18,9 @@ struct Limit {
   math::LimitSpace space;
 };
 
+/// A space as the table that limit_vector and limit_rotation take.
+std::vector<double> limit_data(const math::LimitSpace& space);
+
 class Limits {
  public:
   /// Limits nodes that make no sense are reported.

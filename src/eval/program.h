@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "eval/isa.h"
 #include "eval/kernels/call.h"
 #include "scene/scene.h"
 
@@ -60,7 +61,7 @@ std::optional<Program> compile(const scene::Scene& scene, const Request& request
 /// scene's values.
 class Instance {
  public:
-  explicit Instance(const Program& program);
+  explicit Instance(const Program& program, Isa isa = default_isa());
   /// Rows of an input or output register: row r, lane l at [r * kLanes + l].
   double* input(std::size_t index);
   const double* output(std::size_t index) const;
@@ -68,6 +69,7 @@ class Instance {
 
  private:
   const Program& program_;
+  Isa isa_;
   std::vector<double> registers_;
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include "eval/kernels/chain_steps.h"
+#include "eval/kernels/table.h"
 #include "eval/rules_of_kinds.h"
 
 namespace rigc::eval {
@@ -56,9 +56,9 @@ std::optional<Operand> chain_emit(Emitter& emitter, const scene::Scene& scene, s
                                   const Operands& arguments, Diagnostics& diagnostics) {
   const std::size_t count = element_count(scene, node, ik_chain_at::kTranslates);
   const std::size_t rests = element_count(scene, node, ik_chain_at::kRests);
-  if (count < 2 || count > chain::kMaxJoints) {
+  if (count < 2 || count > kMaxChainJoints) {
     return bad_node(scene, node,
-                    fmt::format("it has {} joints, not 2 to {}", count, chain::kMaxJoints),
+                    fmt::format("it has {} joints, not 2 to {}", count, kMaxChainJoints),
                     diagnostics);
   }
   if (rests != count) {
@@ -80,7 +80,7 @@ std::optional<Operand> chain_emit(Emitter& emitter, const scene::Scene& scene, s
 }
 
 OutputPlace chain_place(const scene::Plug& output) {
-  return {4 * static_cast<std::uint32_t>(std::min(output.element, chain::kMaxJoints)), 4};
+  return {4 * static_cast<std::uint32_t>(std::min(output.element, kMaxChainJoints)), 4};
 }
 
 }  // namespace rigc::eval

@@ -4,94 +4,29 @@
 // degrees. Test: tests/math/*_test.cpp
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <optional>
+
+#include "math/types.h"
 
 namespace rigc::math {
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-struct Vec3 {
-  double x = 0, y = 0, z = 0;
-  double& operator[](std::size_t i) { return i == 0 ? x : i == 1 ? y : z; }
-  double operator[](std::size_t i) const { return i == 0 ? x : i == 1 ? y : z; }
-  bool operator==(const Vec3&) const = default;
-};
-
-/// A rotation as a unit quaternion; identity by default.
-struct Quat {
-  double x = 0, y = 0, z = 0, w = 1;
-  bool operator==(const Quat&) const = default;
-};
-
-/// Columns of a 3 x 3 matrix.
-struct Mat3 {
-  Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-  bool operator==(const Mat3&) const = default;
-};
-
-/// An affine map: p -> linear * p + origin.
-struct Affine {
-  Mat3 linear;
-  Vec3 origin;
-  bool operator==(const Affine&) const = default;
-};
-
-/// Translation, rotation, scale; as a matrix T * R * S.
-struct Trs {
-  Vec3 translation;
-  Quat rotation;
-  Vec3 scale{1, 1, 1};
-  bool operator==(const Trs&) const = default;
-};
-
-inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
-inline Vec3 operator*(Vec3 a, double s) { return {a.x * s, a.y * s, a.z * s}; }
-inline Vec3 operator*(double s, Vec3 a) { return a * s; }
-inline Vec3 scaled(Vec3 a, Vec3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3 cross(Vec3 a, Vec3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 double length(Vec3 a);
 /// `a` at unit length, or `fallback` where it is shorter than 1e-30.
 Vec3 normalised(Vec3 a, Vec3 fallback = {1, 0, 0});
-inline Vec3 lerp(Vec3 a, Vec3 b, double t) { return a + (b - a) * t; }
 /// Any unit vector at right angles to unit vector `a`, the same for the same `a`.
 Vec3 perpendicular(Vec3 a);
 
-inline Vec3 operator*(const Mat3& a, Vec3 v) { return a.x * v.x + a.y * v.y + a.z * v.z; }
-inline Mat3 operator*(const Mat3& a, const Mat3& b) { return {a * b.x, a * b.y, a * b.z}; }
 Mat3 transposed(const Mat3& a);
 double determinant(const Mat3& a);
 /// Inverse; the zero matrix where `a` is singular (its columns span less than 1e-14 of their box).
 Mat3 inverse(const Mat3& a);
 
-inline Vec3 operator*(const Affine& a, Vec3 point) { return a.linear * point + a.origin; }
-inline Affine operator*(const Affine& a, const Affine& b) {
-  return {a.linear * b.linear, a * b.origin};
-}
 Affine inverse(const Affine& a);
 Affine translation(Vec3 v);
 Affine rotation(Quat q);
 
-inline Quat operator*(Quat a, Quat b) {
-  return {
-      a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-      a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
-}
-/// `q` is a unit quaternion.
-inline Vec3 rotate(Quat q, Vec3 v) {
-  const Vec3 axis{q.x, q.y, q.z};
-  const Vec3 twice = cross(axis, v) * 2.0;
-  return v + twice * q.w + cross(axis, twice);
-}
-inline Quat conjugate(Quat q) { return {-q.x, -q.y, -q.z, q.w}; }
-inline double dot(Quat a, Quat b) { return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; }
-inline Quat operator-(Quat a) { return {-a.x, -a.y, -a.z, -a.w}; }
 /// Unit length, identity where `q` is shorter than 1e-30.
 Quat normalised(Quat q);
 /// The nearer way round; `t` in 0..1. Source: Shoemake 1985.
@@ -101,6 +36,7 @@ Quat axis_angle(Vec3 unit_axis, double radians);
 /// perpendicular(a).
 Quat between(Vec3 a, Vec3 b);
 
+/// Of a quaternion of any length, identity where it is shorter than 1e-30.
 Mat3 matrix(Quat q);
 /// Rotation of an orthonormal right-handed matrix, w >= 0. Source: Shepperd 1978.
 Quat quaternion(const Mat3& m);

@@ -184,12 +184,18 @@ Role Scene::role(const Plug& plug) const {
   return spec((*this)[plug.node].kind).attributes[plug.attribute].role;
 }
 
-math::Trs Scene::local(NodeId id) const {
+math::Trs Scene::stored(NodeId id) const {
   const Node& node = (*this)[id];
   assert(spec(node.kind).is_transform);
   return {std::get<math::Vec3>(node.attributes[transform::kTranslate][0]),
-          math::normalised(std::get<math::Quat>(node.attributes[transform::kRotation][0])),
+          std::get<math::Quat>(node.attributes[transform::kRotation][0]),
           std::get<math::Vec3>(node.attributes[transform::kScale][0])};
+}
+
+math::Trs Scene::local(NodeId id) const {
+  math::Trs trs = stored(id);
+  trs.rotation = math::normalised(trs.rotation);
+  return trs;
 }
 
 math::Affine Scene::rest_world(NodeId id) const {
@@ -197,7 +203,7 @@ math::Affine Scene::rest_world(NodeId id) const {
   for (NodeId at = id; at.valid(); at = (*this)[at].parent) path.push_back(at);
   math::Affine world;
   for (auto at = path.rbegin(); at != path.rend(); ++at) {
-    if (spec((*this)[*at].kind).is_transform) world = world * math::compose(local(*at));
+    if (spec((*this)[*at].kind).is_transform) world = world * math::compose(stored(*at));
   }
   return world;
 }

@@ -108,6 +108,8 @@ class Scene {
   std::string dump() const;
 
  private:
+  math::Trs stored(NodeId transform) const;  // the rotation of any length
+
   friend class Edit;
   std::vector<Node> nodes_;
 };

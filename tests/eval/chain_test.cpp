@@ -2,6 +2,7 @@
 // Chain IK: lengths never change, goals in reach are reached, the rest pose comes back.
 #include <doctest/doctest.h>
 
+#define RIGC_ONE_LANE  // its geometry alone, in plain doubles
 #include "eval/kernels/chain_steps.h"
 #include "tests/eval/kernel_runner.h"
 #include "tests/eval/twins.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "eval/kernels/limit.h"
+#include "eval/limits.h"
 #include "tests/eval/kernel_runner.h"
 #include "tests/eval/twins.h"
 

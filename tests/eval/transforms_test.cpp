@@ -40,14 +40,15 @@ TEST_CASE("eval transforms: compose of a lost rotation") {
   CHECK(got == Numbers{2, 0, 0, 0, 2, 0, 0, 0, 2, 1, 2, 3});
 }
 
-TEST_CASE("eval transforms: compose agrees with math bit for bit") {
+TEST_CASE("eval transforms: compose agrees with math") {
   Random random(2);
   for (int i = 0; i < 300; ++i) {
     const math::Trs trs = random.trs(false);
-    const math::Affine want =
-        math::compose({trs.translation, math::normalised(trs.rotation), trs.scale});
-    CHECK(test::run_kernel_once(Op::compose, {trs.translation, trs.rotation, trs.scale}, {}, 12) ==
-          eval::numbers_of(want));
+    const Numbers want = eval::numbers_of(
+        math::compose({trs.translation, math::normalised(trs.rotation), trs.scale}));
+    const Numbers got =
+        test::run_kernel_once(Op::compose, {trs.translation, trs.rotation, trs.scale}, {}, 12);
+    CHECK(test::difference(got, want) < 1e-15);
   }
 }
 

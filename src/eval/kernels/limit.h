@@ -1,14 +1,36 @@
 // SPDX-License-Identifier: MIT
-// The table of the kernels that clamp. Test: tests/eval/limit_test.cpp
+// Kernels that clamp what limits and locks bound. Test: tests/eval/limit_test.cpp
 #pragma once
 
-#include <vector>
-
-#include "math/limit.h"
+#include "eval/kernels/lanes.h"
+#include "math/generic/limits.h"
 
 namespace rigc::eval {
+namespace {
 
-/// What limit_vector and limit_rotation take as their data.
-std::vector<double> limit_data(const math::LimitSpace& space);
+/// The table: min, max, axes, origin, rest, order; made by limit_data().
+RIGC_INLINE math::LimitSpace limit_space(const double* n) {
+  math::LimitSpace space;
+  space.min = {n[0], n[1], n[2]};
+  space.max = {n[3], n[4], n[5]};
+  space.axes = {n[6], n[7], n[8], n[9]};
+  space.origin = {n[10], n[11], n[12]};
+  space.rest = {n[13], n[14], n[15], n[16]};
+  for (int i = 0; i < 3; ++i) space.order[i] = static_cast<int>(n[17 + i]);
+  return space;
+}
 
+struct LimitVector {
+  RIGC_INLINE static void run(const Lanes& lanes) {
+    lanes.put(0, generic::limit_vector(lanes.vec3(0), limit_space(lanes.data())));
+  }
+};
+
+struct LimitRotation {
+  RIGC_INLINE static void run(const Lanes& lanes) {
+    lanes.put(0, generic::limit_rotation(lanes.quat(0), limit_space(lanes.data())));
+  }
+};
+
+}  // namespace
 }  // namespace rigc::eval

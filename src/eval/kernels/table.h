@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "eval/isa.h"
 #include "eval/kernels/call.h"
 
 namespace rigc::eval {
@@ -78,21 +79,9 @@ struct KernelRow {
   int arguments;  ///< -1: as many as the instruction says
 };
 
-const KernelRow& row(Op op);
+const KernelRow& row(Op op, Isa isa = default_isa());
 
-// src/eval/kernels/transforms.cpp
-void compose(const Call& call);
-void multiply(const Call& call);
-void gather(const Call& call);
-void from_euler(const Call& call);
-void to_euler(const Call& call);
-// constraint.cpp, aim.cpp, two_bone.cpp, chain.cpp, limit.cpp, remap.cpp
-void constraint(const Call& call);
-void aim(const Call& call);
-void ik_two_bone(const Call& call);
-void ik_chain(const Call& call);
-void limit_vector(const Call& call);
-void limit_rotation(const Call& call);
-void remap(const Call& call);
+/// The most joints that an ik_chain has; checked when a program is compiled.
+inline constexpr int kMaxChainJoints = 256;
 
 }  // namespace rigc::eval

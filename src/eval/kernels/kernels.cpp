@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// The table of kernels, complete when compiled. This file is compiled once for each instruction set
+// (cmake/kernels.cmake), with RIGC_ISA as its name. Test: tests/eval/isa_test.cpp
+#include "eval/kernels/aim.h"
+#include "eval/kernels/chain.h"
+#include "eval/kernels/constraint.h"
+#include "eval/kernels/limit.h"
+#include "eval/kernels/numbers.h"
+#include "eval/kernels/remap.h"
+#include "eval/kernels/table.h"
+#include "eval/kernels/transforms.h"
+#include "eval/kernels/two_bone.h"
+
+namespace rigc::eval::RIGC_ISA {
+namespace {
+
+constexpr int kAny = -1;
+
+template <class F>
+constexpr Kernel unary = all_lanes<Unary<F>>;
+template <class F>
+constexpr Kernel binary = all_lanes<Binary<F>>;
+template <class F>
+constexpr Kernel ternary = all_lanes<Ternary<F>>;
+
+constexpr KernelRow kRows[] = {
+    {Op::compose, "compose", all_lanes<Compose>, 3},
+    {Op::multiply, "multiply", all_lanes<Multiply>, 2},
+    {Op::gather, "gather", all_lanes<Gather>, kAny},
+    {Op::from_euler, "from_euler", all_lanes<FromEuler>, 1},
+    {Op::to_euler, "to_euler", all_lanes<ToEuler>, 1},
+    {Op::constraint, "constraint", all_lanes<Constraint>, kAny},
+    {Op::aim, "aim", all_lanes<Aim>, kAny},
+    {Op::ik_two_bone, "ik_two_bone", all_lanes<TwoBone>, 9},
+    {Op::ik_chain, "ik_chain", all_lanes<Chain>, kAny},
+    {Op::limit_vector, "limit_vector", all_lanes<LimitVector>, 1},
+    {Op::limit_rotation, "limit_rotation", all_lanes<LimitRotation>, 1},
+    {Op::remap, "remap", all_lanes<Remap>, 5},
+    {Op::negate, "negate", unary<numbers::Negate>, 1},
+    {Op::logical_not, "not", unary<numbers::Not>, 1},
+    {Op::add, "add", binary<numbers::Add>, 2},
+    {Op::subtract, "subtract", binary<numbers::Subtract>, 2},
+    {Op::multiply_numbers, "multiply_numbers", binary<numbers::Multiply>, 2},
+    {Op::divide, "divide", binary<numbers::Divide>, 2},
+    {Op::modulo, "modulo", binary<numbers::Modulo>, 2},
+    {Op::power, "power", binary<numbers::Power>, 2},
+    {Op::less, "less", binary<numbers::Less>, 2},
+    {Op::less_equal, "less_equal", binary<numbers::LessEqual>, 2},
+    {Op::greater, "greater", binary<numbers::Greater>, 2},
+    {Op::greater_equal, "greater_equal", binary<numbers::GreaterEqual>, 2},
+    {Op::equal, "equal", binary<numbers::Equal>, 2},
+    {Op::not_equal, "not_equal", binary<numbers::NotEqual>, 2},
+    {Op::logical_and, "and", binary<numbers::And>, 2},
+    {Op::logical_or, "or", binary<numbers::Or>, 2},
+    {Op::select, "select", ternary<numbers::Select>, 3},
+    {Op::sin, "sin", unary<numbers::Sin>, 1},
+    {Op::cos, "cos", unary<numbers::Cos>, 1},
+    {Op::tan, "tan", unary<numbers::Tan>, 1},
+    {Op::asin, "asin", unary<numbers::Asin>, 1},
+    {Op::acos, "acos", unary<numbers::Acos>, 1},
+    {Op::atan, "atan", unary<numbers::Atan>, 1},
+    {Op::atan2, "atan2", binary<numbers::Atan2>, 2},
+    {Op::sqrt, "sqrt", unary<numbers::Sqrt>, 1},
+    {Op::abs, "abs", unary<numbers::Abs>, 1},
+    {Op::sign, "sign", unary<numbers::Sign>, 1},
+    {Op::floor, "floor", unary<numbers::Floor>, 1},
+    {Op::ceil, "ceil", unary<numbers::Ceil>, 1},
+    {Op::round, "round", unary<numbers::Round>, 1},
+    {Op::exp, "exp", unary<numbers::Exp>, 1},
+    {Op::log, "log", unary<numbers::Log>, 1},
+    {Op::min, "min", binary<numbers::Min>, 2},
+    {Op::max, "max", binary<numbers::Max>, 2},
+    {Op::clamp, "clamp", ternary<numbers::Clamp>, 3},
+    {Op::lerp, "lerp", ternary<numbers::Lerp>, 3},
+    {Op::smoothstep, "smoothstep", ternary<numbers::Smoothstep>, 3},
+    {Op::hypot, "hypot", binary<numbers::Hypot>, 2},
+};
+
+constexpr bool complete() {
+  std::size_t count = 0;
+  for (const KernelRow& row : kRows) {
+    if (static_cast<std::size_t>(row.op) != count++ || row.name.empty()) return false;
+  }
+  return count == static_cast<std::size_t>(Op::count);
+}
+static_assert(complete());
+
+}  // namespace
+
+const KernelRow* kernels() { return kRows; }
+
+}  // namespace rigc::eval::RIGC_ISA
