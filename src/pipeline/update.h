@@ -47,6 +47,7 @@ class Updater {
   struct Step {
     std::vector<const Loaded*> mains;  ///< by main template of the rig; empty: nothing
     std::string why;
+    bool held = false;  ///< nothing, because what is installed is older: a warning said so
   };
 
   explicit Updater(UpdateSettings settings) : settings_(std::move(settings)) {}

@@ -186,6 +186,68 @@ TEST_CASE("cli update: templates that are not there, or only older") {
   CHECK(has(back.out, "lamp 3 -> 2\n"));
 }
 
+TEST_CASE("cli update: parts that are not there, or only older") {
+  const auto part = [](int version) {
+    return "rigc: 1\nname: flag\nversion: " + std::to_string(version) +
+           "\njoints: [{name: pole, at: [0, 0, 0], label: pole, tags: [{command: control}]}]\n";
+  };
+  const fs::path folder = rigc::test::fresh_folder("update_parts");
+  const std::string main =
+      "rigc: 1\nname: ship\nversion: 1\njoints: [{name: hull, at: [0, 0, 0], label: hull}]\n";
+  const std::string with_flag = main + "parts: [{template: flag, as: flag, attach: hull}]\n";
+  write(folder / "studio/ship.yaml", with_flag);
+  write(folder / "studio/flag.yaml", part(3));
+  const Outcome built = run_rigc({"build", "studio/ship.yaml", "-o", "shot.gltf"}, {folder, {}});
+  REQUIRE_MESSAGE(built.status == 0, built.err);
+  const std::string before = file_text(folder / "shot.gltf");
+  const std::vector<std::string> update = {"update", "shot.gltf", "--templates", "studio"};
+  CHECK(run_rigc(update, {folder, {}}).out == "shot.gltf: is up to date\n");
+
+  write(folder / "studio/flag.yaml", part(2));
+  const Outcome older = run_rigc(update, {folder, {}});
+  CHECK(older.status == 0);
+  CHECK(older.out == "shot.gltf: is left as it is\n");
+  CHECK(has(older.err,
+            "warning[RIG0885]: rig \"ship\" cannot be updated: made with part flag 3, but 2 is "
+            "found\n"));
+  CHECK(has(older.err, "--to ship@1 builds it with what there is"));
+
+  fs::remove(folder / "studio/flag.yaml");
+  const Outcome lost = run_rigc(update, {folder, {}});
+  CHECK(lost.status == 1);
+  CHECK(has(lost.err,
+            "error[RIG0884]: rig \"ship\" cannot be updated: part flag is not found\n"));
+  CHECK(file_text(folder / "shot.gltf") == before);
+
+  // A part that somebody took out of the template is not missed.
+  write(folder / "studio/ship.yaml", main);
+  CHECK(has(run_rigc(update, {folder, {}}).out, "1 joint removed: flag_pole\n"));
+}
+
+TEST_CASE("cli update: modules that are not there, or only older") {
+  const Studio s("update_modules");
+  const std::string before = s.shot(), made = "\"modules\":[{\"name\":\"control\",\"version\":";
+  write(s.folder / "shot.gltf", replaced(before, made, made + "99"));
+  const Outcome older = s.run({"update", "shot.gltf"});
+  CHECK(older.status == 0);
+  CHECK(older.out == "shot.gltf: is left as it is\n");
+  CHECK(has(older.err,
+            "warning[RIG0885]: rig \"lamp\" cannot be updated: made by module control 99"));
+  // A new version of the template does not help: keys are of the newer module.
+  write(s.folder / "studio/lamp.yaml", lamp(2));
+  CHECK(s.run({"update", "shot.gltf"}).out == "shot.gltf: is left as it is\n");
+  CHECK(has(s.run({"update", "shot.gltf", "--to", "lamp@2"}).out, "shot.gltf: updated\n"));
+
+  write(s.folder / "studio/lamp.yaml", lamp(1));
+  write(s.folder / "shot.gltf", replaced(before, made, replaced(made, "control", "knob")));
+  const Outcome lost = s.run({"update", "shot.gltf"});
+  CHECK(lost.status == 1);
+  CHECK(has(lost.err,
+            "error[RIG0884]: rig \"lamp\" cannot be updated: there is no module knob\n"));
+  write(s.folder / "studio/lamp.yaml", lamp(2));
+  CHECK(has(s.run({"update", "shot.gltf"}).out, "shot.gltf: updated\n"));
+}
+
 TEST_CASE("cli update: a setting that the new version does not know is said") {
   const Studio s("update_setting", {"--feature", "more=off", "--feature", "tips:lamps=off"});
   write(s.folder / "studio/lamp.yaml",
