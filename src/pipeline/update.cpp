@@ -8,7 +8,6 @@
 
 #include "base/files.h"
 #include "base/text.h"
-#include "pipeline/place_again.h"
 #include "pipeline/update_codes.h"
 #include "tags/settings.h"
 #include "templates/expand.h"
@@ -141,19 +140,27 @@ const Updater::Loaded* Updater::load(const std::string& path) const {
   std::unique_ptr<Loaded>& loaded = loaded_[path];
   if (loaded) return loaded.get();
   loaded = std::make_unique<Loaded>();
+  loaded->diagnostics = Diagnostics(sources_);
   templates::Library library(folders_, catalogue_);
   if (const templates::Template* main = library.open(path, loaded->diagnostics))
     loaded->expanded = templates::expand(*main, library, catalogue_, loaded->diagnostics);
+  sources_ = loaded->diagnostics.sources();
   return loaded.get();
 }
 
-const std::vector<templates::Map>& Updater::maps() const {
+const KnownMaps& Updater::maps() const {
   const std::lock_guard lock(mutex_);
-  if (!maps_) {
-    Diagnostics unheard;
-    maps_ = templates::all_maps(folders_, unheard);
-  }
+  if (maps_) return *maps_;
+  maps_.emplace();
+  maps_->diagnostics = Diagnostics(sources_);
+  maps_->maps = templates::all_maps(folders_, maps_->diagnostics);
+  sources_ = maps_->diagnostics.sources();
   return *maps_;
+}
+
+Sources Updater::sources() const {
+  const std::lock_guard lock(mutex_);
+  return sources_;
 }
 
 bool Updater::concerns(const std::string& global) const {
@@ -226,8 +233,7 @@ std::optional<NewRig> Updater::next_rig(const Recompilation& file, const gltf::R
                                         Diagnostics& diagnostics) const {
   std::vector<const templates::Expanded*> mains;
   for (const Loaded* loaded : step.mains) mains.push_back(&*loaded->expanded);
-  auto skeleton = place_again(mains, file.file(), old,
-                              is_fitted(old.skeleton) ? maps() : std::vector<templates::Map>(),
+  auto skeleton = place_again(mains, file.file(), old, is_fitted(old.skeleton) ? &maps() : nullptr,
                               settings_.take_skeleton, diagnostics);
   if (!skeleton) return std::nullopt;
   NewRig next;
@@ -289,8 +295,9 @@ FileResult Updater::update(const FileWork& work, Diagnostics& diagnostics) const
     report.version_before = made_by.front().version;
     report.template_name = now.name;
     report.version = now.version;
-    // What is written names lines of the template: they are in its sources.
-    Diagnostics building(step.mains.front()->diagnostics.sources());
+    if (is_fitted(old.skeleton)) maps();  // before the sources are taken
+    // What is written names lines of the templates.
+    Diagnostics building(sources());
     auto next = next_rig(*file, old, step, report, building);
     const bool built =
         next && file->compile(i, *std::move(next), catalogue_, settings_, report, building);
