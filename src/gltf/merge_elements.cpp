@@ -15,12 +15,6 @@ namespace {
 
 using json::Value;
 
-json::Document parsed(const std::string& text) {
-  Diagnostics none;
-  auto document = json::parse(text, "", 0, none);
-  return document ? *std::move(document) : json::Document();
-}
-
 /// The clip of the merged file that each clip of the file joins: of clips with one name the n-th
 /// joins the n-th.
 Joins find_joins(const Patch& patch, const std::vector<Value>& clips) {
@@ -65,8 +59,7 @@ void take_scenes(Patch& patch, const File& file, std::vector<int>& places, Joins
 void take_united(const Patch& patch, const File& file, Places& places) {
   for (const auto& [name, content] : file.root()["extensions"].members()) {
     for (const std::string_view array : united_arrays(name)) {
-      const std::string there = patch.root_extension(name);
-      const json::Document document = parsed(there.empty() ? "{}" : there);
+      const json::Document document = parsed(patch.root_extension(name));
       const auto before = static_cast<int>(document.root()[array].size());
       std::vector<int>& list = places.arrays[name + "." + std::string(array)];
       for (std::size_t i = 0; i < content[array].size(); ++i)

@@ -19,12 +19,6 @@ namespace {
 
 using json::Value;
 
-json::Document parsed(const std::string& text) {
-  Diagnostics none;
-  auto document = json::parse(text, "", 0, none);
-  return document ? *std::move(document) : json::Document();
-}
-
 std::vector<std::string> global_groups(const PatchRigs& rigs) {
   std::vector<std::string> out;
   for (const PatchRig& rig : rigs.rigs) out.push_back(rig.rig.skeleton.global);

@@ -17,12 +17,6 @@ namespace {
 
 using json::Value;
 
-json::Document parsed(const std::string& text) {
-  Diagnostics none;
-  auto document = json::parse(text.empty() ? "{}" : text, "", 0, none);
-  return document ? *std::move(document) : json::Document();
-}
-
 /// Reports what of the file has no place in the merged one.
 void report_left_out(const Patch& patch, const File& file, Diagnostics& diagnostics) {
   const Value root = file.root();
