@@ -26,7 +26,8 @@ inline constexpr Code kMergeSameGlobal{
     "gives one of them another."};
 inline constexpr Code kMergeLeftOut{
     688, Severity::warning, "left out of the merged file",
-    "A member of the root that only one file can have: that of the first file stays."};
+    "A member of the root, or of a clip that joins another, that only one of them can have: that of "
+    "the first file stays."};
 
 // One rig of several.
 inline constexpr Code kNoSuchJoin{

@@ -120,7 +120,7 @@ class RootExtensions {
   void join(const std::string& name, const Value& content) {
     const std::string there = patch_.root_extension(name);
     const AtRoot way = at_root(name);
-    if (there == edits_.text(content)) return;
+    if (way == AtRoot::one && there == edits_.text(content)) return;
     if (way == AtRoot::first_only)
       return refuse(name, content, "its lists go by the order of the file's materials",
                     "name this file first");
