@@ -66,7 +66,8 @@ class Rebuild final : public Command {
       for (const std::string& text : *list) w.value(text);
       w.end_array();
     }
-    return w.member("plan", request_.plan).end_object().take();
+    write_members(w, request_);
+    return w.end_object().take();
   }
 
   FileResult one(const FileWork& work, Diagnostics& diagnostics) const {

@@ -30,6 +30,9 @@ struct CarryOptions {
   std::optional<double> tolerance_mm;  ///< a joint that moves by more is an error
 };
 
+/// Members of an object that says what was asked for, for the reports of batches.
+void write_members(json::Writer& writer, const CarryOptions& options);
+
 /// What one rig becomes.
 struct NewRig {
   tags::TaggedSkeleton skeleton;  ///< tags as declared, placed

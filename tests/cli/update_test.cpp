@@ -384,6 +384,10 @@ TEST_CASE("cli rebuild: there and back, with what waits in between") {
       has(on.out, "back: lamp.tip/control.control@rotation -> lamp.tip/control.control@rotation"));
   CHECK(has(s.shot(), "\"rotation\":[0,0,0.6,0.8]"));
 
+  CHECK(s.run({"rebuild", "shot.gltf", "--report", "r.json"}).status == 0);
+  CHECK(s.run({"rebuild", "shot.gltf", "--resume", "r.json"}).status == 0);
+  const Outcome other = s.run({"rebuild", "shot.gltf", "--resume", "r.json", "--strict"});
+  CHECK(has(other.err, "the report is of a run with other options"));
   CHECK(s.run({"rebuild", "shot.gltf", "--feature", "knobs=off"}).status == 1);
   CHECK(s.run({"rebuild", "shot.gltf", "--rig", "desk"}).status == 1);
 }
