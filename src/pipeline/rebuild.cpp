@@ -107,12 +107,10 @@ std::optional<Opened> open_rigs(const std::string& path, Diagnostics& diagnostic
 
 }  // namespace
 
-std::optional<Rebuilt> rebuild(const RebuildRequest& request, const FileWork& work,
-                               Diagnostics& diagnostics) {
+std::optional<Rebuilt> rebuild(const RebuildRequest& request, const catalog::Catalogue& catalogue,
+                               const FileWork& work, Diagnostics& diagnostics) {
   std::optional<FileLock> lock;
   if (!request.plan && !lock_input(work, lock, diagnostics)) return std::nullopt;
-  catalog::Catalogue catalogue;
-  if (!add_modules(request.paths, catalogue, diagnostics)) return std::nullopt;
   const auto file = Recompilation::open(work.input, diagnostics);
   if (!file) return std::nullopt;
   const auto chosen = choose(file->rigs(), request.rigs, work.input, diagnostics);
