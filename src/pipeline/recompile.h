@@ -66,8 +66,8 @@ class Recompilation {
   const gltf::File& file() const { return *file_; }
   const std::vector<gltf::Rig>& rigs() const { return rigs_; }
 
-  /// Builds a rig anew and carries over what was on it. Reported: what does not build, what is
-  /// lost with `strict`, what moves beyond the tolerance.
+  /// Builds a rig anew and carries over what was on it. Reported: an old or new rig that cannot be
+  /// evaluated, what is lost with `strict`, what moves beyond the tolerance.
   bool compile(std::size_t rig, NewRig next, const catalog::Catalogue& catalogue,
                const CarryOptions& options, RigReport& report, Diagnostics& diagnostics);
 
