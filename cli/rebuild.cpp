@@ -43,15 +43,19 @@ class Rebuild final : public Command {
     }
     options.flag("--plan", request_.plan, "Say what would happen and write nothing");
     options.flag("--verbose", verbose_, "List every control and property");
-    declare_modules(options, request_.paths);
+    declare_modules(options, paths_);
   }
   void run(Session& session) override {
+    catalog::Catalogue catalogue;
+    if (!pipeline::add_modules(paths_, catalogue, session.diagnostics)) return;
     batch_.request.command = name();
     batch_.request.settings = settings_text();
     batch_.request.writes = !request_.plan;
     run_batch(
         batch_,
-        [&](const FileWork& work, Diagnostics& diagnostics) { return one(work, diagnostics); },
+        [&](const FileWork& work, Diagnostics& diagnostics) {
+          return one(catalogue, work, diagnostics);
+        },
         request_.plan || verbose_, session);
   }
 
@@ -66,12 +70,14 @@ class Rebuild final : public Command {
       for (const std::string& text : *list) w.value(text);
       w.end_array();
     }
-    return w.member("plan", request_.plan).end_object().take();
+    write_members(w, request_);
+    return w.end_object().take();
   }
 
-  FileResult one(const FileWork& work, Diagnostics& diagnostics) const {
+  FileResult one(const catalog::Catalogue& catalogue, const FileWork& work,
+                 Diagnostics& diagnostics) const {
     FileResult result;
-    const auto rebuilt = pipeline::rebuild(request_, work, diagnostics);
+    const auto rebuilt = pipeline::rebuild(request_, catalogue, work, diagnostics);
     if (!rebuilt) return result;
     result.outcome = FileResult::Outcome::changed;
     result.bytes = rebuilt->bytes;
@@ -89,6 +95,7 @@ class Rebuild final : public Command {
   }
 
   pipeline::RebuildRequest request_;
+  pipeline::Paths paths_;
   BatchOptions batch_;
   bool verbose_ = false;
 };

@@ -13,9 +13,8 @@ std::string settings_text(const pipeline::UpdateSettings& settings) {
   w.begin_object().member("to", settings.to).key("rigs").begin_array();
   for (const std::string& rig : settings.rigs) w.value(rig);
   w.end_array().member("take_skeleton", settings.take_skeleton);
-  w.member("keep_local", settings.keep_local).member("strict", settings.strict);
-  if (settings.tolerance_mm) w.member("tolerance", *settings.tolerance_mm);
-  return w.member("plan", settings.plan).end_object().take();
+  write_members(w, settings);
+  return w.end_object().take();
 }
 
 class Update final : public Command {

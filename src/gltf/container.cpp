@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "base/codes.h"
+#include "base/json.h"
 #include "gltf/codes.h"
 
 namespace rigc::gltf {
@@ -82,14 +84,11 @@ bool take_chunk(Container& container, const Input& input, std::uint64_t& at, std
   return true;
 }
 
-}  // namespace
-
-std::optional<Container> read_container(const Bytes& whole, const std::string& path,
-                                        Diagnostics& diagnostics) {
-  const Input input{whole, path, diagnostics};
+std::optional<Container> split_up(const Input& input) {
+  const Bytes& whole = input.whole;
   Container container;
   char magic[4] = {};
-  if (whole.size() >= sizeof magic && !whole.read(0, sizeof magic, magic, diagnostics))
+  if (whole.size() >= sizeof magic && !whole.read(0, sizeof magic, magic, input.diagnostics))
     return std::nullopt;
   container.binary = std::string_view(magic, sizeof magic) == "glTF";
   container.json = whole;
@@ -103,6 +102,18 @@ std::optional<Container> read_container(const Bytes& whole, const std::string& p
     return std::nullopt;
   }
   return container;
+}
+
+}  // namespace
+
+std::optional<Container> read_container(const Bytes& whole, const std::string& path,
+                                        Diagnostics& diagnostics) {
+  const Input input{whole, path, diagnostics};
+  auto container = split_up(input);
+  if (!container || container->json.size() <= json::kMostBytes) return container;
+  input.fail(rigc::codes::kJsonTooLarge, container->json_offset,
+             fmt::format("{} bytes of JSON", container->json.size()));
+  return std::nullopt;
 }
 
 }  // namespace rigc::gltf

@@ -18,8 +18,6 @@
 namespace rigc::gltf {
 namespace {
 
-constexpr std::uint64_t kLargest = std::uint64_t{8} << 30;
-
 /// Loads buffers; a file that several of them name is read once.
 class BufferLoader {
  public:
@@ -76,7 +74,7 @@ class BufferLoader {
   /// What is wrong with a buffer's file is said of the buffer: people look for it in the model.
   std::optional<Bytes> open_file(const std::string& path, const std::string& name) {
     Diagnostics opening;
-    auto bytes = Bytes::open(path, kLargest, opening);
+    auto bytes = Bytes::open(path, kLargestFile, opening);
     for (const Diagnostic& wrong : opening.all()) {
       const bool special = wrong.code == &rigc::codes::kNotRegularFile;
       report(special ? codes::kBufferNotFile : *wrong.code,
@@ -94,7 +92,7 @@ class BufferLoader {
 }  // namespace
 
 std::optional<File> open(const std::string& path, Diagnostics& diagnostics) {
-  auto bytes = Bytes::open(path, kLargest, diagnostics);
+  auto bytes = Bytes::open(path, kLargestFile, diagnostics);
   if (!bytes) return std::nullopt;
   return open(path, *std::move(bytes), diagnostics);
 }
@@ -109,11 +107,6 @@ std::optional<File> open(const std::string& path, Bytes bytes, Diagnostics& diag
   file.binary = container->binary;
   file.bin = std::move(container->bin);
   file.other_chunks = std::move(container->other_chunks);
-  if (container->json.size() > json::kMostBytes) {
-    diagnostics.report(rigc::codes::kJsonTooLarge, Place::at_byte(path, container->json_offset),
-                       fmt::format("{} bytes of JSON", container->json.size()));
-    return std::nullopt;
-  }
   auto text = container->json.text(diagnostics);
   if (!text) return std::nullopt;
   auto json = json::parse(*std::move(text), path, container->json_offset, diagnostics);

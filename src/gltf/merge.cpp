@@ -115,7 +115,7 @@ std::optional<Merged> merge(Patch& patch, const std::deque<File>& files,
     remap_rigs(source.file, source.rigs, places, edits);
     shift_samplers(source.file, joins, edits);
     edits.sort();
-    write_elements(patch, source.file, places, joins, edits);
+    write_elements(patch, source.file, places, joins, edits, diagnostics);
     write_views(patch, source.file, places, options);
     join_scenes(patch, source.file, places, joins);
     if (!join_root(patch, source.file, places, edits, diagnostics)) return std::nullopt;

@@ -24,9 +24,10 @@ inline constexpr Code kMergeSameGlobal{
     684, Severity::error, "two rigs with one global group",
     "Rigs in one file are told apart by their global groups. `rigc rename FILE --global old=new` "
     "gives one of them another."};
-inline constexpr Code kMergeLeftOut{
-    688, Severity::warning, "left out of the merged file",
-    "A member of the root that only one file can have: that of the first file stays."};
+inline constexpr Code kMergeLeftOut{688, Severity::warning, "left out of the merged file",
+                                    "A member of the root, or of a clip that joins another, that "
+                                    "only one of them can have: that of "
+                                    "the first file stays."};
 
 // One rig of several.
 inline constexpr Code kNoSuchJoin{

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Elements of top-level arrays: their places in the merged file, and their texts there.
 // Test: tests/gltf/merge_test.cpp
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
 #include "base/text.h"
+#include "gltf/merge_codes.h"
 #include "gltf/merge_parts.h"
 #include "gltf/merge_table.h"
 #include "gltf/splice.h"
@@ -14,12 +17,6 @@ namespace rigc::gltf {
 namespace {
 
 using json::Value;
-
-json::Document parsed(const std::string& text) {
-  Diagnostics none;
-  auto document = json::parse(text, "", 0, none);
-  return document ? *std::move(document) : json::Document();
-}
 
 /// The clip of the merged file that each clip of the file joins: of clips with one name the n-th
 /// joins the n-th.
@@ -65,8 +62,7 @@ void take_scenes(Patch& patch, const File& file, std::vector<int>& places, Joins
 void take_united(const Patch& patch, const File& file, Places& places) {
   for (const auto& [name, content] : file.root()["extensions"].members()) {
     for (const std::string_view array : united_arrays(name)) {
-      const std::string there = patch.root_extension(name);
-      const json::Document document = parsed(there.empty() ? "{}" : there);
+      const json::Document document = parsed(patch.root_extension(name));
       const auto before = static_cast<int>(document.root()[array].size());
       std::vector<int>& list = places.arrays[name + "." + std::string(array)];
       for (std::size_t i = 0; i < content[array].size(); ++i)
@@ -75,10 +71,22 @@ void take_united(const Patch& patch, const File& file, Places& places) {
   }
 }
 
-/// The clip with the samplers and channels of another behind its own.
-std::string joined_clip(const std::string& text, const Value& clip, const Edits& edits) {
+/// The clip with the samplers and channels of another behind its own. What the other says besides,
+/// and this one otherwise, is left out.
+std::string joined_clip(const std::string& text, const File& file, const Value& clip,
+                        const Edits& edits, Diagnostics& diagnostics) {
   const json::Document document = parsed(text);
   Splice whole(document.root());
+  for (const auto& [name, value] : clip.members()) {
+    if (name == "samplers" || name == "channels") continue;
+    const Value there = document.root()[name];
+    if (!there)
+      whole.set(name, edits.text(value));
+    else if (there.text() != edits.text(value))
+      diagnostics.report(codes::kMergeLeftOut, Place(file.path, value.pointer()),
+                         fmt::format("\"{}\" of the clip does not come into the merged file",
+                                     printable(name, 60)));
+  }
   for (const char* list : {"samplers", "channels"}) {
     if (!document.root()[list].is_array()) {
       whole.set(list, edits.text(clip[list]));
@@ -132,7 +140,7 @@ void shift_samplers(const File& file, const Joins& joins, Edits& edits) {
 }
 
 void write_elements(Patch& patch, const File& file, const Places& places, const Joins& joins,
-                    const Edits& edits) {
+                    const Edits& edits, Diagnostics& diagnostics) {
   for (const std::string_view array : kTopLevel) {
     if (array == "bufferViews") continue;
     const auto elements = file.root()[array].items();
@@ -141,7 +149,9 @@ void write_elements(Patch& patch, const File& file, const Places& places, const 
       if (place < 0) continue;
       const bool joins_clip = array == "animations" && joins.clips.count(i) != 0;
       if (joins_clip)
-        patch.replace(array, place, joined_clip(patch.element(array, place), elements[i], edits));
+        patch.replace(
+            array, place,
+            joined_clip(patch.element(array, place), file, elements[i], edits, diagnostics));
       else if (array != "scenes" || static_cast<int>(i) != joins.scene || joins.scene_comes)
         patch.replace(array, place, edits.text(elements[i]));
     }

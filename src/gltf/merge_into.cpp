@@ -19,12 +19,6 @@ namespace {
 
 using json::Value;
 
-json::Document parsed(const std::string& text) {
-  Diagnostics none;
-  auto document = json::parse(text, "", 0, none);
-  return document ? *std::move(document) : json::Document();
-}
-
 std::vector<std::string> global_groups(const PatchRigs& rigs) {
   std::vector<std::string> out;
   for (const PatchRig& rig : rigs.rigs) out.push_back(rig.rig.skeleton.global);
@@ -129,14 +123,22 @@ bool check_roots(const Joining& joining, const std::string& path, Diagnostics& d
   return complete;
 }
 
-/// Nothing comes to hang under itself: one rig's joints may stand above the other's in the file.
+/// Nothing comes to hang under itself, because one rig's joints may stand above the other's in the
+/// file, and nothing under a joint that somebody took out of the rig's scene.
 bool check_above(const Joining& joining, const Moved& moved, const PatchNodes& nodes,
                  const std::string& path, Diagnostics& diagnostics) {
   const Rig &into = joining.into.rig, &from = joining.from.rig;
   for (const auto& [id, place] : moved.nodes) {
     const auto& joint = into.skeleton.joints[static_cast<std::size_t>(place.first)];
     const int node = nodes.node_of(from, id);
-    int at = nodes.node_of(into, joint_node(into, joint.key));
+    const scene::NodeId taker = joint_node(into, joint.key);
+    if (!taker.valid()) {
+      diagnostics.report(codes::kRigsClash, Place(path, "/extensions/RIGC_rig"),
+                         fmt::format("the joint \"{}\" of the rig \"{}\" has no node",
+                                     printable(joint.name), into.skeleton.global));
+      return false;
+    }
+    int at = nodes.node_of(into, taker);
     while (at >= 0 && at != node) at = nodes.parents[static_cast<std::size_t>(at)];
     if (at < 0) continue;
     diagnostics.report(

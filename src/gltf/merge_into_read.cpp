@@ -10,6 +10,7 @@
 #include "gltf/merge_into_parts.h"
 #include "gltf/rig_codes.h"
 #include "gltf/rig_json.h"
+#include "gltf/splice.h"
 
 namespace rigc::gltf {
 namespace {
@@ -169,13 +170,11 @@ PatchNodes::PatchNodes(const Patch& patch) {
   const auto count = static_cast<std::size_t>(patch.count("nodes"));
   parents.assign(count, -1);
   for (std::size_t i = 0; i < count; ++i) {
-    Diagnostics none;
-    const auto node = json::parse(patch.element("nodes", static_cast<int>(i)), "", 0, none);
-    locals.push_back(node ? local_of(node->root()) : Affine());
-    if (!node) continue;
-    for (const Value& child : node->root()["children"].items())
+    const json::Document node = parsed(patch.element("nodes", static_cast<int>(i)));
+    locals.push_back(local_of(node.root()));
+    for (const Value& child : node.root()["children"].items())
       parents[static_cast<std::size_t>(child.integer().value_or(0))] = static_cast<int>(i);
-    const auto mark = node->root()["extras"]["rigc"].string();
+    const auto mark = node.root()["extras"]["rigc"].string();
     if (const auto identity = mark ? parse_identity(*mark) : std::nullopt)
       marked.emplace(*identity, static_cast<int>(i));
   }

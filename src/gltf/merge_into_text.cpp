@@ -271,11 +271,7 @@ std::string joined_text(const Joining& joining, const Moved& moved) {
   text.run();
   Edits children;
   list_children(joining, moved, counts.nodes, children);
-  const json::Document nodes = [&] {
-    Diagnostics none;
-    auto document = json::parse(children.text(into["nodes"]), "", 0, none);
-    return document ? *std::move(document) : json::Document();
-  }();
+  const json::Document nodes = parsed(children.text(into["nodes"]));
 
   Splice whole(into);
   for (const char* list : {"templates", "files", "orphans"})

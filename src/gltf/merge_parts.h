@@ -29,7 +29,7 @@ Joins take_places(Patch& patch, const File& file, const MergeOptions& options, P
 void shift_samplers(const File& file, const Joins& joins, Edits& edits);
 /// Puts the elements on their places, but for buffer views.
 void write_elements(Patch& patch, const File& file, const Places& places, const Joins& joins,
-                    const Edits& edits);
+                    const Edits& edits, Diagnostics& diagnostics);
 
 /// Buffer views, and the bytes of buffers that become a part of the merged file's.
 void write_views(Patch& patch, const File& file, const Places& places, const MergeOptions& options);

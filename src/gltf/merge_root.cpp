@@ -17,12 +17,6 @@ namespace {
 
 using json::Value;
 
-json::Document parsed(const std::string& text) {
-  Diagnostics none;
-  auto document = json::parse(text.empty() ? "{}" : text, "", 0, none);
-  return document ? *std::move(document) : json::Document();
-}
-
 /// Reports what of the file has no place in the merged one.
 void report_left_out(const Patch& patch, const File& file, Diagnostics& diagnostics) {
   const Value root = file.root();
@@ -126,7 +120,7 @@ class RootExtensions {
   void join(const std::string& name, const Value& content) {
     const std::string there = patch_.root_extension(name);
     const AtRoot way = at_root(name);
-    if (there == edits_.text(content)) return;
+    if (way == AtRoot::one && there == edits_.text(content)) return;
     if (way == AtRoot::first_only)
       return refuse(name, content, "its lists go by the order of the file's materials",
                     "name this file first");

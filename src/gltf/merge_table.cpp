@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where indices stand in a glTF file: one row a place. An extension that gets a row here, or in the
-// list of those without indices, can be merged. Test: tests/gltf/merge_test.cpp
+// list of those without indices, can be merged. Test: tests/gltf/merge_table_test.cpp
 #include "gltf/merge_table.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where indices stand in a glTF file: in the elements of its top-level arrays and in the extensions
 // that rigc knows. What is in no table may hold indices that rigc would not see.
-// Test: tests/gltf/merge_test.cpp
+// Test: tests/gltf/merge_table_test.cpp
 #pragma once
 
 #include <string_view>

@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Changes of a Patch inside of elements and of the root object: members, children, extras,
 // extensions. Test: tests/gltf/patch_test.cpp
-#include <cassert>
-
 #include "gltf/patch.h"
 #include "gltf/patch_state.h"
 #include "gltf/splice.h"
 
 namespace rigc::gltf {
 namespace {
-
-json::Document parsed(const std::string& text) {
-  Diagnostics none;
-  auto document = json::parse(text, "", 0, none);
-  assert(document);
-  return *std::move(document);
-}
 
 std::string with_item(const std::string& list, std::string item) {
   if (list.empty()) return "[" + item + "]";

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <set>
 
-#include "base/codes.h"
 #include "gltf/container.h"
 #include "gltf/rig_codes.h"
 #include "gltf/rig_json.h"
@@ -17,22 +16,15 @@
 namespace rigc::gltf {
 namespace {
 
-constexpr std::uint64_t kLargest = std::uint64_t{8} << 30;  // as gltf::open
-
 struct Text {
   std::string json;
   std::size_t offset = 0;  ///< in the file
 };
 
 std::optional<Text> read_text(const std::string& path, Diagnostics& diagnostics) {
-  const auto whole = Bytes::open(path, kLargest, diagnostics);
+  const auto whole = Bytes::open(path, kLargestFile, diagnostics);
   const auto container = whole ? read_container(*whole, path, diagnostics) : std::nullopt;
   if (!container) return std::nullopt;
-  if (container->json.size() > json::kMostBytes) {
-    diagnostics.report(rigc::codes::kJsonTooLarge, Place::at_byte(path, container->json_offset),
-                       fmt::format("{} bytes of JSON", container->json.size()));
-    return std::nullopt;
-  }
   auto text = container->json.text(diagnostics);
   if (!text) return std::nullopt;
   return Text{std::move(*text), container->json_offset};

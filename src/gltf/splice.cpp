@@ -125,11 +125,16 @@ std::string Splice::text() const {
   return out;
 }
 
-std::string with_member(const std::string& text, std::string_view key, std::string json) {
+json::Document parsed(std::string text) {
   Diagnostics none;
-  const auto document = json::parse(text, "", 0, none);
-  assert(document && document->root().is_object());
-  Splice splice(document->root());
+  auto document = json::parse(text.empty() ? "{}" : std::move(text), "", 0, none);
+  return document ? *std::move(document) : json::Document();
+}
+
+std::string with_member(const std::string& text, std::string_view key, std::string json) {
+  const json::Document document = parsed(text);
+  assert(document.root().is_object());
+  Splice splice(document.root());
   splice.set(key, std::move(json));
   return splice.text();
 }

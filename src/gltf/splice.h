@@ -50,6 +50,9 @@ class Splice {
   std::deque<std::string> kept_;   ///< texts that parts view; a deque never moves them
 };
 
+/// The document of a text that was read before or that rigc wrote; without a text that of an empty
+/// object. Only where that is too large now there is no root.
+json::Document parsed(std::string text);
 /// `text` (one JSON object) with a member set, or removed where `json` is empty.
 std::string with_member(const std::string& text, std::string_view key, std::string json);
 /// Whether a text is an object or array without members.

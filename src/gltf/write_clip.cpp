@@ -191,12 +191,10 @@ class Change {
   std::string placeholder(const Splice& texts, const std::vector<std::size_t>& places) const {
     std::size_t used = 0;
     while (std::find(places.begin(), places.end(), used) != places.end()) ++used;
-    Diagnostics none;
-    const auto document = json::parse(std::string(texts.value(used)), "", 0, none);
-    assert(document);
+    const json::Document document = parsed(std::string(texts.value(used)));
     json::Writer writer;
-    writer.begin_object().key("input").raw(document->root()["input"].text());
-    writer.key("output").raw(document->root()["output"].text());
+    writer.begin_object().key("input").raw(document.root()["input"].text());
+    writer.key("output").raw(document.root()["output"].text());
     return writer.key("extras").raw(R"({"rigc":{"free":true}})").end_object().take();
   }
 
@@ -224,10 +222,8 @@ std::string fresh(const anim::Clip& clip, Samplers& samplers) {
 /// A node that gets channels cannot have a matrix: it becomes the equal translation, rotation and
 /// scale.
 void replace_matrix(Patch& patch, int node) {
-  Diagnostics none;
-  const auto document = json::parse(patch.element("nodes", node), "", 0, none);
-  assert(document);
-  const auto numbers = document->root()["matrix"].items();
+  const json::Document document = parsed(patch.element("nodes", node));
+  const auto numbers = document.root()["matrix"].items();
   if (numbers.size() != 16) return;
   double m[16];
   for (std::size_t i = 0; i < 16; ++i) m[i] = numbers[i].number().value_or(0);

@@ -117,7 +117,9 @@ std::optional<std::vector<Twin>> find_twins(const Side& edited, const Side& orig
 
 std::optional<Adopted> adopt(const AdoptRequest& request, const std::string& out,
                              Diagnostics& diagnostics) {
+  catalog::Catalogue catalogue;
   if (!check_output_name(out, diagnostics)) return std::nullopt;
+  if (request.skeleton && !add_modules(request.paths, catalogue, diagnostics)) return std::nullopt;
   const auto edited = read_side(request.edited, diagnostics);
   const auto original = read_side(request.original, diagnostics);
   if (!edited || !original) return std::nullopt;
@@ -140,9 +142,7 @@ std::optional<Adopted> adopt(const AdoptRequest& request, const std::string& out
   gltf::write_clips(patch, original->file, *changes);
   if (!write_output(patch, original->file, out, report.bytes, diagnostics)) return std::nullopt;
   if (report.joints == 0) return report;
-  RebuildRequest again;
-  again.paths = request.paths;
-  const auto rebuilt = rebuild(again, {out, out, {}}, diagnostics);
+  const auto rebuilt = rebuild({}, catalogue, {out, out, {}}, diagnostics);
   if (!rebuilt) return std::nullopt;
   report.bytes = rebuilt->bytes;
   return report;

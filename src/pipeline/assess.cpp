@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/files.h"
 #include "base/ids.h"
 #include "base/text.h"
@@ -53,13 +55,16 @@ class Judge {
 
   void run() {
     if (out_.templates.empty())
-      stop("the rig does not say which template made it");
+      lose("the rig does not say which template made it");
     else
       judge_main(out_.templates.front());
-    const bool moves = out_.action == Action::update;
+    moves_ = out_.action == Action::update;
+    edited_ = std::any_of(out_.templates.begin(), out_.templates.end(), [](const auto& made) {
+      return made.state == TemplateState::newer || made.state == TemplateState::changed;
+    });
     if (out_.action != Action::cannot) {
-      for (std::size_t i = 1; i < out_.templates.size(); ++i) judge_part(out_.templates[i], moves);
-      for (const ModuleStatus& module : out_.modules) judge_module(module, moves);
+      for (std::size_t i = 1; i < out_.templates.size(); ++i) judge_part(out_.templates[i]);
+      for (const ModuleStatus& module : out_.modules) judge_module(module);
     }
     std::vector<std::string>& told = out_.action == Action::cannot ? stops_ : reasons_;
     if (told.size() > kMostReasons) {
@@ -75,7 +80,7 @@ class Judge {
     const std::string name = printable(main.name, 60);
     switch (main.state) {
       case TemplateState::missing:
-        return stop(fmt::format("no template {} is found", name));
+        return lose(fmt::format("no template {} is found", name));
       case TemplateState::older:
         return stop(
             fmt::format("made by {} {}, but only {} is found", name, main.version, main.found));
@@ -88,16 +93,17 @@ class Judge {
     }
   }
 
-  /// A newer main template may have other parts: what the old one had no longer counts.
-  void judge_part(const TemplateStatus& part, bool moves) {
+  /// A newer main template may have other parts: what the old one had no longer counts. One that is
+  /// gone may be gone from any template that somebody edited.
+  void judge_part(const TemplateStatus& part) {
     const std::string name = printable(part.file.empty() ? part.name : part.file, 60);
     switch (part.state) {
       case TemplateState::missing:
-        return moves ? void() : stop(fmt::format("part {} is not found", name));
+        return edited_ ? void() : lose(fmt::format("part {} is not found", name));
       case TemplateState::older:
-        return moves ? void()
-                     : stop(fmt::format("made with part {} {}, but {} is found", name, part.version,
-                                        part.found));
+        return moves_ ? void()
+                      : stop(fmt::format("made with part {} {}, but {} is found", name,
+                                         part.version, part.found));
       case TemplateState::newer:
         return found(Action::update,
                      fmt::format("part {} {} -> {}", name, part.version, part.found));
@@ -108,12 +114,12 @@ class Judge {
     }
   }
 
-  /// A newer template need not use a module that is gone.
-  void judge_module(const ModuleStatus& module, bool moves) {
+  /// An edited template need not use a module that is gone.
+  void judge_module(const ModuleStatus& module) {
     const std::string name = printable(module.name, 60);
     switch (module.state) {
       case ModuleState::unknown:
-        return moves ? void() : stop(fmt::format("there is no module {}", name));
+        return edited_ ? void() : lose(fmt::format("there is no module {}", name));
       case ModuleState::older:
         return stop(fmt::format("made by module {} {}, this rigc has {}", name, module.version,
                                 module.found));
@@ -136,7 +142,14 @@ class Judge {
     stops_.push_back(std::move(reason));
   }
 
+  void lose(std::string reason) {
+    out_.lost = true;
+    stop(std::move(reason));
+  }
+
   Assessment& out_;
+  bool moves_ = false;   ///< the main template is newer
+  bool edited_ = false;  ///< a template is newer or has another content
   std::vector<std::string> reasons_, stops_;
 };
 

@@ -61,6 +61,7 @@ struct Fork {
 struct Assessment {
   Action action = Action::nothing;
   std::string reason;                     ///< what differs, for people; empty for nothing
+  bool lost = false;                      ///< cannot: something is not found, not only older
   std::vector<TemplateStatus> templates;  ///< the main one first
   std::vector<ModuleStatus> modules;
   std::vector<Fork> forks;  ///< of the main template: followed only where `--to` says so

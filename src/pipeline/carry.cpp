@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "scene/edit.h"
 #include "update/skeleton.h"
@@ -101,9 +100,14 @@ Carrier::Carrier(const gltf::Rig& old, gltf::Rig& fresh, const std::vector<anim:
 /// The glTF node of a source; -1 for none.
 int Carrier::node_of(std::size_t source) const {
   const update::Source& from = sources_[source];
-  if (from.node.valid()) return old_.nodes[from.node.index];
-  const std::size_t first = sources_.size() - old_.orphans.size();
-  return old_.orphans[source - first].node;
+  return from.node.valid() ? old_.nodes[from.node.index] : old_orphan(source).node;
+}
+
+/// Orphans are the last of the sources.
+std::size_t Carrier::first_orphan() const { return sources_.size() - old_.orphans.size(); }
+
+const gltf::Orphan& Carrier::old_orphan(std::size_t source) const {
+  return old_.orphans[source - first_orphan()];
 }
 
 /// A joint of the model: it is in the file whatever the rig is.
@@ -164,9 +168,8 @@ void Carrier::hold(std::size_t source, const Property& property) {
   const auto same = [&](const scene::UserAttribute& one) { return one.name == property.attribute; };
   if (std::any_of(orphan.attributes.begin(), orphan.attributes.end(), same)) return;
   const update::Source& from = sources_[source];
-  const std::size_t first = sources_.size() - old_.orphans.size();
   const std::vector<scene::UserAttribute>& had =
-      from.node.valid() ? old_.scene[from.node].user : old_.orphans[source - first].attributes;
+      from.node.valid() ? old_.scene[from.node].user : old_orphan(source).attributes;
   const auto found = std::find_if(had.begin(), had.end(), same);
   if (found == had.end()) return;
   scene::UserAttribute attribute;
@@ -287,9 +290,8 @@ void Carrier::move_values() {
     if (source == by_scene_node.end()) continue;
     move_value(source->second, property_of(old_.scene, posed.plug), old_.scene.value(posed.plug));
   }
-  const std::size_t first = sources_.size() - old_.orphans.size();
-  for (std::size_t i = first; i < sources_.size(); ++i) {
-    const gltf::Orphan& orphan = old_.orphans[i - first];
+  for (std::size_t i = first_orphan(); i < sources_.size(); ++i) {
+    const gltf::Orphan& orphan = old_orphan(i);
     if (orphan.local.translation != orphan.rest.translation)
       move_value(i, {Path::translation, {}}, orphan.local.translation);
     if (orphan.local.rotation != orphan.rest.rotation)
@@ -409,62 +411,6 @@ void Carrier::report_nodes() {
   }
   for (std::size_t i = 0; i < stays.size(); ++i)
     if (!stays[i]) report_.joints_removed.push_back(old_.skeleton.joints[i].name);
-}
-
-std::optional<std::vector<ClipComparison>> Carrier::compare(Diagnostics& diagnostics) const {
-  // A rig that is taken apart plays nothing.
-  if (old_.commands.empty() || fresh_.commands.empty()) return std::vector<ClipComparison>();
-  std::vector<int> numbers(fresh_.scene.size());
-  std::iota(numbers.begin(), numbers.end(), 0);
-  std::map<JointKey, NodeId> fresh_joints, old_joints;
-  for (const NodeId id : fresh_.scene.nodes())
-    if (fresh_.scene[id].is_skeleton()) fresh_joints[fresh_.scene[id].identity.owner] = id;
-  for (const NodeId id : old_.scene.nodes())
-    if (old_.scene[id].is_skeleton()) old_joints[old_.scene[id].identity.owner] = id;
-  std::vector<update::JointPair> joints;
-  const std::vector<int> from = update::counterparts(fresh_.skeleton, old_.skeleton);
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    if (from[i] < 0) continue;
-    const auto now = fresh_joints.find(fresh_.skeleton.joints[i].key);
-    const auto was = old_joints.find(old_.skeleton.joints[static_cast<std::size_t>(from[i])].key);
-    if (now != fresh_joints.end() && was != old_joints.end())
-      joints.push_back({fresh_.skeleton.joints[i].name, was->second, now->second});
-  }
-  // What others play in the same file is no clip of this rig.
-  std::vector<anim::Clip> now(clips_.size());
-  for (const Move& move : moves_) {
-    const anim::Channel& channel = clips_[move.clip].channels[move.channel];
-    anim::Channel moved = channel;
-    if (move.destination.kind == Destination::Kind::none) continue;
-    const auto& match = matches_[by_node_.at(channel.node)];
-    if (!match) continue;
-    moved.node = static_cast<int>(match->to.index);
-    if (move.destination.kind == Destination::Kind::property)
-      moved.attribute = move.destination.attribute;
-    if (move.curve) moved.curve = *move.curve;
-    now[move.clip].channels.push_back(std::move(moved));
-  }
-  std::vector<bool> concerned(clips_.size(), false);
-  for (const Move& move : moves_) {
-    const std::size_t source = by_node_.at(clips_[move.clip].channels[move.channel].node);
-    // Clips on the model's joints alone play without the rig.
-    if (!is_foreign(source)) concerned[move.clip] = true;
-  }
-  const anim::Clip none;
-  std::vector<update::ClipPair> pairs = {{&none, &none}};  // what stands without a clip
-  std::vector<std::string> names = {{}};
-  for (std::size_t i = 0; i < clips_.size(); ++i) {
-    if (!concerned[i]) continue;
-    pairs.push_back({&clips_[i], &now[i]});
-    names.push_back(clips_[i].name);
-  }
-  auto comparisons = update::compare({&old_.scene, &old_.nodes}, {&fresh_.scene, &numbers}, pairs,
-                                     joints, old_.skeleton.character.unit, diagnostics);
-  if (!comparisons) return std::nullopt;
-  std::vector<ClipComparison> out;
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    out.push_back({names[i], std::move((*comparisons)[i])});
-  return out;
 }
 
 std::vector<gltf::ChannelEdit> Carrier::edits() const {

@@ -79,6 +79,8 @@ class Carrier {
   };
 
   int node_of(std::size_t source) const;
+  std::size_t first_orphan() const;
+  const gltf::Orphan& old_orphan(std::size_t source) const;
   bool is_foreign(std::size_t source) const;
   void find_places();
   void succeed();
@@ -95,6 +97,8 @@ class Carrier {
              const update::Destination& destination, bool keyed, bool converted);
   void report_nodes();
   std::string describe_source(std::size_t source) const;
+  std::vector<bool> concerned_clips() const;
+  std::vector<anim::Clip> moved_clips(const std::vector<bool>& wanted) const;
 
   const gltf::Rig& old_;
   gltf::Rig& fresh_;

@@ -94,8 +94,7 @@ TaggedSkeleton joints_of(const TaggedSkeleton& skeleton, std::size_t first, std:
 
 std::optional<TaggedSkeleton> fit_again(const templates::Expanded& expanded, const gltf::File& file,
                                         const gltf::Rig& rig, const TaggedSkeleton& old,
-                                        const std::vector<templates::Map>& maps,
-                                        Diagnostics& diagnostics) {
+                                        const KnownMaps* maps, Diagnostics& diagnostics) {
   const auto skeletons = gltf::read_skeletons(file, rig.settings.rest, diagnostics);
   if (!skeletons) return std::nullopt;
   const tags::ForeignSkeleton* found = skeleton_of(*skeletons, old);
@@ -108,8 +107,10 @@ std::optional<TaggedSkeleton> fit_again(const templates::Expanded& expanded, con
   const tags::ForeignSkeleton skeleton = without_own(*found, rig);
   const templates::Bindings known = bindings_of(old);
   templates::Map map;
-  if (has_new_joints(expanded, known)) {
-    const auto trials = templates::try_maps(maps, expanded, skeleton);
+  if (maps && has_new_joints(expanded, known)) {
+    diagnostics.append(maps->diagnostics);
+    if (!maps->diagnostics.ok()) return std::nullopt;
+    const auto trials = templates::try_maps(maps->maps, expanded, skeleton);
     if (!trials.empty()) map = *trials.front().map;
   }
   // What there is to warn of in the fit was said when the rig was built.
@@ -177,8 +178,8 @@ std::vector<std::size_t> main_templates(const std::vector<tags::TemplateReferenc
 
 std::optional<TaggedSkeleton> place_again(const std::vector<const templates::Expanded*>& mains,
                                           const gltf::File& file, const gltf::Rig& old,
-                                          const std::vector<templates::Map>& maps,
-                                          bool take_skeleton, Diagnostics& diagnostics) {
+                                          const KnownMaps* maps, bool take_skeleton,
+                                          Diagnostics& diagnostics) {
   std::vector<std::size_t> begins = main_templates(old.skeleton.templates);
   begins.push_back(old.skeleton.templates.size());
   std::optional<TaggedSkeleton> out;

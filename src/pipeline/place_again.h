@@ -12,6 +12,12 @@
 
 namespace rigc::pipeline {
 
+/// The maps of the template folders, and what was wrong with some.
+struct KnownMaps {
+  Diagnostics diagnostics;
+  std::vector<templates::Map> maps;
+};
+
 /// Whether any joint of a rig is a bone of its file's model.
 bool is_fitted(const tags::TaggedSkeleton& skeleton);
 
@@ -20,11 +26,11 @@ bool is_fitted(const tags::TaggedSkeleton& skeleton);
 std::vector<std::size_t> main_templates(const std::vector<tags::TemplateReference>& templates);
 
 /// The next skeleton of a rig. `mains`: what its main templates are now, in their order. `maps`:
-/// for joints of a fitted rig that are new. With `take_skeleton` joints go where the templates, or
-/// the bones, have them; else they stay.
+/// for joints of a fitted rig that are new, else null; their spans point into the sources of
+/// `diagnostics`, and what is wrong with them is reported where they are needed. With
+/// `take_skeleton` joints go where the templates, or the bones, have them; else they stay.
 std::optional<tags::TaggedSkeleton> place_again(
     const std::vector<const templates::Expanded*>& mains, const gltf::File& file,
-    const gltf::Rig& old, const std::vector<templates::Map>& maps, bool take_skeleton,
-    Diagnostics& diagnostics);
+    const gltf::Rig& old, const KnownMaps* maps, bool take_skeleton, Diagnostics& diagnostics);
 
 }  // namespace rigc::pipeline

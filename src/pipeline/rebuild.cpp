@@ -88,31 +88,37 @@ bool write_work(gltf::Patch& patch, const gltf::File& file, const FileWork& work
          write_output(patch, file, work.output, bytes, diagnostics);
 }
 
-/// Reads a file with at least one rig.
+/// A file with at least one rig, and which of its rigs are meant. Locked where it is replaced.
 struct Opened {
+  std::optional<FileLock> lock;
   gltf::File file;
   std::vector<gltf::Rig> rigs;
+  std::vector<std::size_t> chosen;
 };
-std::optional<Opened> open_rigs(const std::string& path, Diagnostics& diagnostics) {
-  auto file = gltf::open(path, diagnostics);
+
+std::optional<Opened> open_rigs(const FileWork& work, const std::vector<std::string>& wanted,
+                                Diagnostics& diagnostics) {
+  std::optional<FileLock> lock;
+  if (!lock_input(work, lock, diagnostics)) return std::nullopt;
+  auto file = gltf::open(work.input, diagnostics);
   if (!file) return std::nullopt;
   auto rigs = gltf::read_rigs(*file, diagnostics);
   if (!rigs) return std::nullopt;
   if (rigs->empty()) {
-    diagnostics.report(codes::kNoRigHere, Place(path), "the file has no rig");
+    diagnostics.report(codes::kNoRigHere, Place(work.input), "the file has no rig");
     return std::nullopt;
   }
-  return Opened{*std::move(file), *std::move(rigs)};
+  auto chosen = choose(*rigs, wanted, work.input, diagnostics);
+  if (!chosen) return std::nullopt;
+  return Opened{std::move(lock), *std::move(file), *std::move(rigs), *std::move(chosen)};
 }
 
 }  // namespace
 
-std::optional<Rebuilt> rebuild(const RebuildRequest& request, const FileWork& work,
-                               Diagnostics& diagnostics) {
+std::optional<Rebuilt> rebuild(const RebuildRequest& request, const catalog::Catalogue& catalogue,
+                               const FileWork& work, Diagnostics& diagnostics) {
   std::optional<FileLock> lock;
   if (!request.plan && !lock_input(work, lock, diagnostics)) return std::nullopt;
-  catalog::Catalogue catalogue;
-  if (!add_modules(request.paths, catalogue, diagnostics)) return std::nullopt;
   const auto file = Recompilation::open(work.input, diagnostics);
   if (!file) return std::nullopt;
   const auto chosen = choose(file->rigs(), request.rigs, work.input, diagnostics);
@@ -142,15 +148,11 @@ std::optional<Rebuilt> rebuild(const RebuildRequest& request, const FileWork& wo
 
 std::optional<Removed> strip(const std::vector<std::string>& rigs, const FileWork& work,
                              Diagnostics& diagnostics) {
-  std::optional<FileLock> lock;
-  if (!lock_input(work, lock, diagnostics)) return std::nullopt;
-  const auto opened = open_rigs(work.input, diagnostics);
+  const auto opened = open_rigs(work, rigs, diagnostics);
   if (!opened) return std::nullopt;
-  const auto chosen = choose(opened->rigs, rigs, work.input, diagnostics);
-  if (!chosen) return std::nullopt;
   Removed out;
   std::vector<gltf::Rig> models, characters;
-  for (const std::size_t index : *chosen) {
+  for (const std::size_t index : opened->chosen) {
     const gltf::Rig& rig = opened->rigs[index];
     out.rigs.push_back(rig.skeleton.global);
     out.orphans += rig.orphans.size();
@@ -168,18 +170,14 @@ std::optional<Removed> strip(const std::vector<std::string>& rigs, const FileWor
 
 std::optional<Removed> prune(const std::vector<std::string>& rigs, const FileWork& work,
                              Diagnostics& diagnostics) {
-  std::optional<FileLock> lock;
-  if (!lock_input(work, lock, diagnostics)) return std::nullopt;
-  const auto opened = open_rigs(work.input, diagnostics);
+  const auto opened = open_rigs(work, rigs, diagnostics);
   if (!opened) return std::nullopt;
-  const auto chosen = choose(opened->rigs, rigs, work.input, diagnostics);
-  if (!chosen) return std::nullopt;
   Removed out;
   std::vector<gltf::Rig> pruned;
   std::vector<gltf::Replacement> replacements;
   std::set<int> gone;
-  pruned.reserve(chosen->size());
-  for (const std::size_t index : *chosen) {
+  pruned.reserve(opened->chosen.size());
+  for (const std::size_t index : opened->chosen) {
     const gltf::Rig& rig = opened->rigs[index];
     out.rigs.push_back(rig.skeleton.global);
     out.orphans += rig.orphans.size();

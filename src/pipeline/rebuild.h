@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/environment.h"
+#include "catalog/catalogue.h"
 #include "pipeline/recompile.h"
 
 namespace rigc::pipeline {
@@ -17,7 +17,6 @@ struct RebuildRequest : CarryOptions {
   std::vector<std::string> features;  ///< [GROUP/]NAME[:SWITCH]=on|off, over those of the file
   std::vector<std::string> groups;    ///< GROUP=on|off
   bool unbuild = false;               ///< skeleton and tags alone: keys become orphans
-  Paths paths;
 };
 
 struct Rebuilt {
@@ -25,9 +24,10 @@ struct Rebuilt {
   std::uint64_t bytes = 0;
 };
 
-/// Builds the rigs of a file from the tags in it. Joints stay where the tags have them.
-std::optional<Rebuilt> rebuild(const RebuildRequest& request, const FileWork& work,
-                               Diagnostics& diagnostics);
+/// Builds the rigs of a file from the tags in it. Joints stay where the tags have them. Threads may
+/// share the catalogue.
+std::optional<Rebuilt> rebuild(const RebuildRequest& request, const catalog::Catalogue& catalogue,
+                               const FileWork& work, Diagnostics& diagnostics);
 
 struct Removed {
   std::vector<std::string> rigs;  ///< global groups

@@ -129,8 +129,6 @@ std::unique_ptr<Recompilation> Recompilation::open(const std::string& path,
     return nullptr;
   }
   out->rigs_ = *std::move(rigs);
-  for (const gltf::Rig& rig : out->rigs_)
-    if (!check_evaluates(*out->file_, rig, diagnostics)) return nullptr;
   auto clips = gltf::read_clips(*out->file_, diagnostics, &*slim);
   if (!clips) return nullptr;
   out->clips_ = std::move(clips->clips);
@@ -144,6 +142,7 @@ bool Recompilation::compile(std::size_t index, NewRig next, const catalog::Catal
                             const CarryOptions& options, RigReport& report,
                             Diagnostics& diagnostics) {
   const gltf::Rig& old = rigs_[index];
+  if (!check_evaluates(*file_, old, diagnostics)) return false;
   auto compiled = std::make_unique<Compiled>();
   compiled->rig = index;
   compiled->sources = diagnostics.sources();

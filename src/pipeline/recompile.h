@@ -30,6 +30,9 @@ struct CarryOptions {
   std::optional<double> tolerance_mm;  ///< a joint that moves by more is an error
 };
 
+/// Members of an object that says what was asked for, for the reports of batches.
+void write_members(json::Writer& writer, const CarryOptions& options);
+
 /// What one rig becomes.
 struct NewRig {
   tags::TaggedSkeleton skeleton;  ///< tags as declared, placed
@@ -63,8 +66,8 @@ class Recompilation {
   const gltf::File& file() const { return *file_; }
   const std::vector<gltf::Rig>& rigs() const { return rigs_; }
 
-  /// Builds a rig anew and carries over what was on it. Reported: what does not build, what is
-  /// lost with `strict`, what moves beyond the tolerance.
+  /// Builds a rig anew and carries over what was on it. Reported: an old or new rig that cannot be
+  /// evaluated, what is lost with `strict`, what moves beyond the tolerance.
   bool compile(std::size_t rig, NewRig next, const catalog::Catalogue& catalogue,
                const CarryOptions& options, RigReport& report, Diagnostics& diagnostics);
 

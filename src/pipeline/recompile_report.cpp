@@ -146,6 +146,12 @@ void write_comparison(json::Writer& writer, const ClipComparison& clip) {
 
 }  // namespace
 
+void write_members(json::Writer& writer, const CarryOptions& options) {
+  writer.member("keep_local", options.keep_local).member("strict", options.strict);
+  if (options.tolerance_mm) writer.member("tolerance", *options.tolerance_mm);
+  writer.member("plan", options.plan);
+}
+
 std::string as_text(const RigReport& report, bool verbose) {
   std::string text = fmt::format("  {}: {}\n", printable(report.global, 60), versions(report));
   const CarryReport& carry = report.carry;

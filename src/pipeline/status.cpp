@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <new>
+#include <system_error>
 #include <thread>
 
+#include "pipeline/batch_codes.h"
 #include "pipeline/batch_inputs.h"
 #include "templates/library.h"
 
@@ -15,14 +18,18 @@ namespace {
 
 constexpr std::size_t kMostJobs = 64;
 
-void read_file_status(const Installed& installed, FileStatus& out, Diagnostics& diagnostics) {
+void read_file_status(const Installed& installed, FileStatus& out, Diagnostics& diagnostics) try {
   auto rigs = gltf::read_rig_summaries(out.file, diagnostics);
   if (!rigs) return;
-  out.read = true;
   for (gltf::RigSummary& rig : *rigs) {
     Assessment assessment = installed.assess(rig.templates, rig.modules);
     out.rigs.push_back({std::move(rig), std::move(assessment)});
   }
+  out.read = true;
+} catch (const std::bad_alloc&) {
+  // One file that is too much must not end the others.
+  out.rigs.clear();
+  diagnostics.report(codes::kOutOfMemory, Place(out.file), "there is not enough memory");
 }
 
 std::size_t job_count(std::size_t wanted, std::size_t files) {
@@ -50,12 +57,14 @@ std::optional<std::vector<FileStatus>> status(const StatusRequest& request,
       read_file_status(installed, files[i], reported[i]);
   };
   std::vector<std::thread> others;
-  for (std::size_t i = 1; i < job_count(request.jobs, files.size()); ++i) others.emplace_back(work);
+  try {
+    while (others.size() + 1 < job_count(request.jobs, files.size())) others.emplace_back(work);
+  } catch (const std::system_error&) {
+    // No more threads to be had: those that are there do it all.
+  }
   work();
   for (std::thread& other : others) other.join();
-  for (const Diagnostics& one : reported)
-    for (const Diagnostic& found : one.all())
-      diagnostics.report(*found.code, found.place, found.message, found.hint);
+  for (const Diagnostics& one : reported) diagnostics.append(one);
   return files;
 }
 

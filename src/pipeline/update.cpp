@@ -8,7 +8,6 @@
 
 #include "base/files.h"
 #include "base/text.h"
-#include "pipeline/place_again.h"
 #include "pipeline/update_codes.h"
 #include "tags/settings.h"
 #include "templates/expand.h"
@@ -98,6 +97,23 @@ tags::Settings known_settings(const tags::Settings& settings, const TaggedSkelet
 
 std::string quoted(const std::string& text) { return "\"" + printable(text, 60) + "\""; }
 
+/// Why a rig cannot be updated. False where something is lost; what is only older is a warning.
+bool report_stop(const std::string& path, const std::string& global, const Assessment& assessment,
+                 Diagnostics& diagnostics) {
+  const std::string what =
+      fmt::format("rig {} cannot be updated: {}", quoted(global), assessment.reason);
+  if (assessment.lost) {
+    diagnostics.report(codes::kTemplateLost, Place(path), what,
+                       "--templates DIR adds a folder of templates, --modules DIR one of modules");
+    return false;
+  }
+  const TemplateStatus& main = assessment.templates.front();
+  diagnostics.report(
+      codes::kOlderOnly, Place(path), what,
+      fmt::format("--to {}@{} builds it with what there is", printable(main.name), main.found));
+  return true;
+}
+
 }  // namespace
 
 std::unique_ptr<Updater> Updater::make(const UpdateSettings& settings, Diagnostics& diagnostics) {
@@ -124,19 +140,27 @@ const Updater::Loaded* Updater::load(const std::string& path) const {
   std::unique_ptr<Loaded>& loaded = loaded_[path];
   if (loaded) return loaded.get();
   loaded = std::make_unique<Loaded>();
+  loaded->diagnostics = Diagnostics(sources_);
   templates::Library library(folders_, catalogue_);
   if (const templates::Template* main = library.open(path, loaded->diagnostics))
     loaded->expanded = templates::expand(*main, library, catalogue_, loaded->diagnostics);
+  sources_ = loaded->diagnostics.sources();
   return loaded.get();
 }
 
-const std::vector<templates::Map>& Updater::maps() const {
+const KnownMaps& Updater::maps() const {
   const std::lock_guard lock(mutex_);
-  if (!maps_) {
-    Diagnostics unheard;
-    maps_ = templates::all_maps(folders_, unheard);
-  }
+  if (maps_) return *maps_;
+  maps_.emplace();
+  maps_->diagnostics = Diagnostics(sources_);
+  maps_->maps = templates::all_maps(folders_, maps_->diagnostics);
+  sources_ = maps_->diagnostics.sources();
   return *maps_;
+}
+
+Sources Updater::sources() const {
+  const std::lock_guard lock(mutex_);
+  return sources_;
 }
 
 bool Updater::concerns(const std::string& global) const {
@@ -149,8 +173,9 @@ bool Updater::find_step(const std::string& path, const std::string& global,
                         const std::vector<tags::TemplateReference>& templates,
                         const std::vector<std::pair<std::string, int>>& modules, Step& step,
                         Diagnostics& diagnostics) const {
-  if (!concerns(global) || templates.empty()) return true;
+  if (!concerns(global)) return true;
   const Assessment assessment = installed_->assess(templates, modules);
+  if (templates.empty()) return report_stop(path, global, assessment, diagnostics);
   const std::vector<std::size_t> mains = main_templates(templates);
   std::vector<std::string> files;
   for (const std::size_t main : mains) {
@@ -171,7 +196,12 @@ bool Updater::find_step(const std::string& path, const std::string& global,
         fmt::format("rig {} was made by version {} of template {}; the newest found is {}",
                     quoted(global), status.version, quoted(status.name), status.found),
         fmt::format("--to {}@{} goes back", printable(status.name), status.found));
+    step.held = true;
     return true;
+  }
+  if (to_.empty() && assessment.action == Action::cannot) {
+    step.held = true;
+    return report_stop(path, global, assessment, diagnostics);
   }
   step.why = assessment.reason;
   if (to_.empty() && !assessment.needs_update() && !settings_.take_skeleton) return true;
@@ -203,8 +233,7 @@ std::optional<NewRig> Updater::next_rig(const Recompilation& file, const gltf::R
                                         Diagnostics& diagnostics) const {
   std::vector<const templates::Expanded*> mains;
   for (const Loaded* loaded : step.mains) mains.push_back(&*loaded->expanded);
-  auto skeleton = place_again(mains, file.file(), old,
-                              is_fitted(old.skeleton) ? maps() : std::vector<templates::Map>(),
+  auto skeleton = place_again(mains, file.file(), old, is_fitted(old.skeleton) ? &maps() : nullptr,
                               settings_.take_skeleton, diagnostics);
   if (!skeleton) return std::nullopt;
   NewRig next;
@@ -226,16 +255,18 @@ FileResult Updater::update(const FileWork& work, Diagnostics& diagnostics) const
   if (!settings_.plan && !lock_input(work, lock, diagnostics)) return result;
   const auto summaries = gltf::read_rig_summaries(work.input, diagnostics);
   if (!summaries) return result;
-  bool concerned = false, named = false, good = true;
+  bool concerned = false, named = false, held = false, good = true;
   for (const gltf::RigSummary& rig : *summaries) {
     named = named || concerns(rig.global);
     Step step;
     good = find_step(work.input, rig.global, rig.templates, rig.modules, step, diagnostics) && good;
     concerned = concerned || !step.mains.empty();
+    held = held || step.held;
   }
   if (!good) return result;
   if (!concerned) {
     result.summary = summaries->empty() ? "has no rig"
+                     : held             ? "is left as it is"
                      : named            ? "is up to date"
                                         : "has no rig of that name";
     if (!settings_.plan) pass_on(work, result.bytes, diagnostics);
@@ -251,8 +282,11 @@ FileResult Updater::update(const FileWork& work, Diagnostics& diagnostics) const
     const gltf::Rig& old = file->rigs()[i];
     Step step;
     const auto& made_by = old.skeleton.templates;
-    if (!find_step(work.input, old.skeleton.global, made_by, old.modules, step, reading))
+    Diagnostics said_before;
+    if (!find_step(work.input, old.skeleton.global, made_by, old.modules, step, said_before)) {
+      diagnostics.append(said_before);
       return result;
+    }
     if (step.mains.empty()) continue;
     RigReport& report = reports.emplace_back();
     const tags::TemplateReference& now = step.mains.front()->expanded->skeleton.templates.front();
@@ -261,8 +295,9 @@ FileResult Updater::update(const FileWork& work, Diagnostics& diagnostics) const
     report.version_before = made_by.front().version;
     report.template_name = now.name;
     report.version = now.version;
-    // What is written names lines of the template: they are in its sources.
-    Diagnostics building(step.mains.front()->diagnostics.sources());
+    if (is_fitted(old.skeleton)) maps();  // before the sources are taken
+    // What is written names lines of the templates.
+    Diagnostics building(sources());
     auto next = next_rig(*file, old, step, report, building);
     const bool built =
         next && file->compile(i, *std::move(next), catalogue_, settings_, report, building);

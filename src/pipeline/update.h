@@ -14,9 +14,9 @@
 #include "pipeline/assess.h"
 #include "pipeline/batch.h"
 #include "pipeline/environment.h"
+#include "pipeline/place_again.h"
 #include "pipeline/recompile.h"
 #include "templates/library.h"
-#include "templates/map.h"
 
 namespace rigc::pipeline {
 
@@ -38,7 +38,7 @@ class Updater {
   FileResult update(const FileWork& work, Diagnostics& diagnostics) const;
 
  private:
-  /// A template as rigs of every file share it; spans point into its own sources.
+  /// A template as rigs of every file share it.
   struct Loaded {
     Diagnostics diagnostics;
     std::optional<templates::Expanded> expanded;
@@ -47,6 +47,7 @@ class Updater {
   struct Step {
     std::vector<const Loaded*> mains;  ///< by main template of the rig; empty: nothing
     std::string why;
+    bool held = false;  ///< nothing, because what is installed is older: a warning said so
   };
 
   explicit Updater(UpdateSettings settings) : settings_(std::move(settings)) {}
@@ -56,7 +57,8 @@ class Updater {
                  const std::vector<std::pair<std::string, int>>& modules, Step& step,
                  Diagnostics& diagnostics) const;
   bool concerns(const std::string& global) const;
-  const std::vector<templates::Map>& maps() const;
+  const KnownMaps& maps() const;
+  Sources sources() const;
   std::optional<NewRig> next_rig(const Recompilation& file, const gltf::Rig& old, const Step& step,
                                  RigReport& report, Diagnostics& diagnostics) const;
 
@@ -67,7 +69,8 @@ class Updater {
   std::string to_;  ///< path
   mutable std::mutex mutex_;
   mutable std::map<std::string, std::unique_ptr<Loaded>> loaded_;  ///< by path
-  mutable std::optional<std::vector<templates::Map>> maps_;
+  mutable std::optional<KnownMaps> maps_;
+  mutable Sources sources_;  ///< that spans of all templates and maps point into
 };
 
 }  // namespace rigc::pipeline

@@ -18,12 +18,12 @@ inline constexpr Code kMoves{882, Severity::error, "the rig plays differently",
                              "the new rig. The file is left alone."};
 inline constexpr Code kTemplateLost{
     884, Severity::error, "template not found",
-    "The template that made the rig is in none of the template folders. Name its folder with "
-    "--templates, or the template to follow with --to."};
+    "The template that made the rig, a part of it or a module is in none of the folders. Name "
+    "their folders with --templates and --modules, or the template to follow with --to."};
 inline constexpr Code kOlderOnly{
     885, Severity::warning, "only an older version is found",
-    "The rig was built with a newer version of its template than there is. It is left as it is; "
-    "--to NAME@VERSION goes back on purpose."};
+    "The rig was built with a newer version of its template, of a part or of a module than there "
+    "is. It is left as it is; --to NAME@VERSION goes back on purpose."};
 inline constexpr Code kSettingGone{
     886, Severity::warning, "setting of the rig is gone",
     "The rig was built with a feature, switch or group turned on or off that the new version does "

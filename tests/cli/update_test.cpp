@@ -87,6 +87,24 @@ struct Studio {
   }
 };
 
+const std::string kSkins = R"(,"skins":[{"joints":[0,1]}])";
+
+/// A folder with `studio/lamp.yaml` at version 1 and `shot.gltf`: fitted to a model of two bones.
+fs::path fitted_lamp(const std::string& name) {
+  const fs::path folder = rigc::test::fresh_folder(name);
+  write(folder / "studio/lamp.yaml", lamp(1));
+  write(folder / "model.gltf",
+        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"name":"base",)"
+        R"("translation":[0,1,0],"children":[1]},{"name":"tip","translation":[0,1,0]}])" +
+            kSkins + "}");
+  write(folder / "map.yaml", "map: mine\ntitle: Mine\njoints: {lamp.base: base, lamp.tip: tip}\n");
+  const Outcome built = run_rigc({"build", "studio/lamp.yaml", "--model", "model.gltf", "--map",
+                                  "map.yaml", "-o", "shot.gltf"},
+                                 {folder, {}});
+  REQUIRE_MESSAGE(built.status == 0, built.err);
+  return folder;
+}
+
 }  // namespace
 
 TEST_CASE("cli update: a shot moves to the new version and is then up to date") {
@@ -186,6 +204,66 @@ TEST_CASE("cli update: templates that are not there, or only older") {
   CHECK(has(back.out, "lamp 3 -> 2\n"));
 }
 
+TEST_CASE("cli update: parts that are not there, or only older") {
+  const auto part = [](int version) {
+    return "rigc: 1\nname: flag\nversion: " + std::to_string(version) +
+           "\njoints: [{name: pole, at: [0, 0, 0], label: pole, tags: [{command: control}]}]\n";
+  };
+  const fs::path folder = rigc::test::fresh_folder("update_parts");
+  const std::string main =
+      "rigc: 1\nname: ship\nversion: 1\njoints: [{name: hull, at: [0, 0, 0], label: hull}]\n";
+  const std::string with_flag = main + "parts: [{template: flag, as: flag, attach: hull}]\n";
+  write(folder / "studio/ship.yaml", with_flag);
+  write(folder / "studio/flag.yaml", part(3));
+  const Outcome built = run_rigc({"build", "studio/ship.yaml", "-o", "shot.gltf"}, {folder, {}});
+  REQUIRE_MESSAGE(built.status == 0, built.err);
+  const std::string before = file_text(folder / "shot.gltf");
+  const std::vector<std::string> update = {"update", "shot.gltf", "--templates", "studio"};
+  CHECK(run_rigc(update, {folder, {}}).out == "shot.gltf: is up to date\n");
+
+  write(folder / "studio/flag.yaml", part(2));
+  const Outcome older = run_rigc(update, {folder, {}});
+  CHECK(older.status == 0);
+  CHECK(older.out == "shot.gltf: is left as it is\n");
+  CHECK(has(older.err,
+            "warning[RIG0885]: rig \"ship\" cannot be updated: made with part flag 3, but 2 is "
+            "found\n"));
+  CHECK(has(older.err, "--to ship@1 builds it with what there is"));
+
+  fs::remove(folder / "studio/flag.yaml");
+  const Outcome lost = run_rigc(update, {folder, {}});
+  CHECK(lost.status == 1);
+  CHECK(has(lost.err, "error[RIG0884]: rig \"ship\" cannot be updated: part flag is not found\n"));
+  CHECK(file_text(folder / "shot.gltf") == before);
+
+  // A part that somebody took out of the template is not missed.
+  write(folder / "studio/ship.yaml", main);
+  CHECK(has(run_rigc(update, {folder, {}}).out, "1 joint removed: flag_pole\n"));
+}
+
+TEST_CASE("cli update: modules that are not there, or only older") {
+  const Studio s("update_modules");
+  const std::string before = s.shot(), made = "\"modules\":[{\"name\":\"control\",\"version\":";
+  write(s.folder / "shot.gltf", replaced(before, made, made + "99"));
+  const Outcome older = s.run({"update", "shot.gltf"});
+  CHECK(older.status == 0);
+  CHECK(older.out == "shot.gltf: is left as it is\n");
+  CHECK(has(older.err,
+            "warning[RIG0885]: rig \"lamp\" cannot be updated: made by module control 99"));
+  // A new version of the template does not help: keys are of the newer module.
+  write(s.folder / "studio/lamp.yaml", lamp(2));
+  CHECK(s.run({"update", "shot.gltf"}).out == "shot.gltf: is left as it is\n");
+  CHECK(has(s.run({"update", "shot.gltf", "--to", "lamp@2"}).out, "shot.gltf: updated\n"));
+
+  write(s.folder / "studio/lamp.yaml", lamp(1));
+  write(s.folder / "shot.gltf", replaced(before, made, replaced(made, "control", "knob")));
+  const Outcome lost = s.run({"update", "shot.gltf"});
+  CHECK(lost.status == 1);
+  CHECK(has(lost.err, "error[RIG0884]: rig \"lamp\" cannot be updated: there is no module knob\n"));
+  write(s.folder / "studio/lamp.yaml", lamp(2));
+  CHECK(has(s.run({"update", "shot.gltf"}).out, "shot.gltf: updated\n"));
+}
+
 TEST_CASE("cli update: a setting that the new version does not know is said") {
   const Studio s("update_setting", {"--feature", "more=off", "--feature", "tips:lamps=off"});
   write(s.folder / "studio/lamp.yaml",
@@ -199,23 +277,39 @@ TEST_CASE("cli update: a setting that the new version does not know is said") {
 }
 
 TEST_CASE("cli update: a fitted rig whose skeleton is gone from the file") {
-  const fs::path folder = rigc::test::fresh_folder("broken/update_model_gone");
-  write(folder / "studio/lamp.yaml", lamp(1));
-  const std::string skins = R"(,"skins":[{"joints":[0,1]}])";
-  write(folder / "model.gltf",
-        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"name":"base",)"
-        R"("translation":[0,1,0],"children":[1]},{"name":"tip","translation":[0,1,0]}])" +
-            skins + "}");
-  write(folder / "map.yaml", "map: mine\ntitle: Mine\njoints: {lamp.base: base, lamp.tip: tip}\n");
-  const Outcome built = run_rigc({"build", "studio/lamp.yaml", "--model", "model.gltf", "--map",
-                                  "map.yaml", "-o", "shot.gltf"},
-                                 {folder, {}});
-  REQUIRE_MESSAGE(built.status == 0, built.err);
-  write(folder / "shot.gltf", replaced(file_text(folder / "shot.gltf"), skins, ""));
+  const fs::path folder = fitted_lamp("broken/update_model_gone");
+  write(folder / "shot.gltf", replaced(file_text(folder / "shot.gltf"), kSkins, ""));
   write(folder / "studio/lamp.yaml", lamp(2));
   const Outcome gone = run_rigc({"update", "shot.gltf", "--templates", "studio"}, {folder, {}});
   CHECK(gone.status == 1);
   CHECK(has(gone.err, "error[RIG0887]: no skeleton of the file has the joints of rig \"lamp\"\n"));
+}
+
+TEST_CASE("cli update: maps with mistakes are told where new joints need maps") {
+  const fs::path folder = fitted_lamp("update_maps");
+  write(folder / "studio/maps/mine.yaml", "map: mine\ntitle: [1]\n");
+  write(folder / "studio/lamp.yaml", lamp(2));
+  const std::vector<std::string> update = {"update", "shot.gltf", "--templates", "studio"};
+  const Outcome same = run_rigc(update, {folder, {}});
+  CHECK(same.status == 0);
+  CHECK(same.err.empty());
+
+  const std::string shade =
+      "  - {name: shade, parent: tip, at: [0, 2.5, 0], local: lamp, label: shade}\n";
+  write(folder / "studio/lamp.yaml", lamp(3) + shade);
+  const Outcome wrong = run_rigc(update, {folder, {}});
+  CHECK(wrong.status == 1);
+  CHECK(has(wrong.err, "studio/maps/mine.yaml:2:"));
+  // Two joints for one bone: the line of the map is told, not one of the template.
+  write(folder / "studio/maps/mine.yaml",
+        "map: mine\ntitle: Mine\n# comments\n# and\n# more\n"
+        "joints:\n  lamp.base: base\n  lamp.tip: tip\n  lamp.shade: tip\n");
+  const Outcome twice = run_rigc(update, {folder, {}});
+  CHECK(twice.status == 1);
+  CHECK(has(twice.err, "studio/maps/mine.yaml:9:3: error[RIG0345]"));
+  write(folder / "studio/maps/mine.yaml",
+        "map: mine\ntitle: Mine\njoints: {lamp.base: base, lamp.tip: tip, lamp.shade: ~}\n");
+  CHECK(run_rigc(update, {folder, {}}).status == 0);
 }
 
 TEST_CASE("cli update: one of many files fails, the others are done") {
@@ -290,6 +384,10 @@ TEST_CASE("cli rebuild: there and back, with what waits in between") {
       has(on.out, "back: lamp.tip/control.control@rotation -> lamp.tip/control.control@rotation"));
   CHECK(has(s.shot(), "\"rotation\":[0,0,0.6,0.8]"));
 
+  CHECK(s.run({"rebuild", "shot.gltf", "--report", "r.json"}).status == 0);
+  CHECK(s.run({"rebuild", "shot.gltf", "--resume", "r.json"}).status == 0);
+  const Outcome other = s.run({"rebuild", "shot.gltf", "--resume", "r.json", "--strict"});
+  CHECK(has(other.err, "the report is of a run with other options"));
   CHECK(s.run({"rebuild", "shot.gltf", "--feature", "knobs=off"}).status == 1);
   CHECK(s.run({"rebuild", "shot.gltf", "--rig", "desk"}).status == 1);
 }

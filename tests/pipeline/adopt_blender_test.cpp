@@ -20,12 +20,12 @@ using test::adopted;
 using test::bytes_of;
 using test::clip_of;
 using test::find;
-using test::Foreign;
 using test::make_shot;
 using test::near;
+using test::OtherProgram;
 using test::rig_of;
-using test::Shot;
 using test::value_at;
+using test::WalkShot;
 
 /// Imports, runs the lines of an edit, exports; false (with a message) where there is no Blender.
 bool through_blender(const std::string& in, const std::string& out, int fps,
@@ -61,7 +61,7 @@ bool through_blender(const std::string& in, const std::string& out, int fps,
 TEST_CASE("adopt: through Blender and back without an edit") {
   for (const int fps : {24, 30}) {
     CAPTURE(fps);
-    const Shot shot = make_shot("blender");
+    const WalkShot shot = make_shot("blender");
     const std::string edited = test::test_out("broken/adopt_blender_edited.glb");
     if (!through_blender(shot.path, edited, fps, "")) return;
     const std::string out = test::test_out("adopt_blender_out.glb");
@@ -74,7 +74,7 @@ TEST_CASE("adopt: through Blender and back without an edit") {
 }
 
 TEST_CASE("adopt: a control moved, a key changed, a property set and a joint moved in Blender") {
-  const Shot shot = make_shot("blender_edit");
+  const WalkShot shot = make_shot("blender_edit");
   const std::string edited = test::test_out("broken/adopt_blender_edit_edited.glb");
   const gltf::Rig before = rig_of(shot.path);
   const std::string edit = fmt::format(

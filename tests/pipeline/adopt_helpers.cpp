@@ -53,12 +53,12 @@ void save(gltf::Patch& patch, const gltf::File& file, const std::string& path) {
 
 }  // namespace
 
-std::string Shot::identity(int node) const {
+std::string WalkShot::identity(int node) const {
   return load_glb(path).json["nodes"][static_cast<std::size_t>(node)]["extras"]["rigc"];
 }
 
-Shot make_shot(const std::string& name) {
-  Shot shot;
+WalkShot make_shot(const std::string& name) {
+  WalkShot shot;
   Diagnostics diagnostics;
   pipeline::BuildRequest request;
   request.template_file = "biped";
@@ -88,7 +88,7 @@ Shot make_shot(const std::string& name) {
 }
 
 /// Numbers of an accessor of packed floats.
-std::vector<float> Foreign::floats(const ordered_json& accessor) const {
+std::vector<float> OtherProgram::floats(const ordered_json& accessor) const {
   static const std::map<std::string, std::size_t> kWidths = {
       {"SCALAR", 1}, {"VEC3", 3}, {"VEC4", 4}};
   const auto& view = character_.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
@@ -99,8 +99,8 @@ std::vector<float> Foreign::floats(const ordered_json& accessor) const {
   return out;
 }
 
-int Foreign::add_accessor(const std::string& type, const std::vector<float>& values,
-                          std::size_t count) {
+int OtherProgram::add_accessor(const std::string& type, const std::vector<float>& values,
+                               std::size_t count) {
   ordered_json& json = character_.json;
   character_.bin.resize((character_.bin.size() + 3) / 4 * 4, '\0');
   json["bufferViews"].push_back(
@@ -119,7 +119,7 @@ int Foreign::add_accessor(const std::string& type, const std::vector<float>& val
   return static_cast<int>(json["accessors"].size()) - 1;
 }
 
-Foreign::Foreign(const std::string& path) : character_(load_glb(path)) {
+OtherProgram::OtherProgram(const std::string& path) : character_(load_glb(path)) {
   ordered_json& json = character_.json;
   json.erase("extensions");
   json.erase("extensionsUsed");
@@ -146,7 +146,7 @@ Foreign::Foreign(const std::string& path) : character_(load_glb(path)) {
       channel["target"]["node"] = moved(channel["target"]["node"]);
 }
 
-ordered_json& Foreign::node(const Shot& shot, int index) {
+ordered_json& OtherProgram::node(const WalkShot& shot, int index) {
   const auto original = load_glb(shot.path).json;
   const std::string identity = original["nodes"][static_cast<std::size_t>(index)]["extras"]["rigc"];
   for (ordered_json& node : json()["nodes"])
@@ -155,11 +155,11 @@ ordered_json& Foreign::node(const Shot& shot, int index) {
   return json();
 }
 
-int Foreign::index(const ordered_json& node) {
+int OtherProgram::index(const ordered_json& node) {
   return static_cast<int>(&node - &json()["nodes"][0]);
 }
 
-void Foreign::resample() {
+void OtherProgram::resample() {
   for (ordered_json& clip : json()["animations"]) {
     ordered_json channels = ordered_json::array(), samplers = ordered_json::array();
     std::set<int> nodes;
@@ -177,7 +177,7 @@ void Foreign::resample() {
   }
 }
 
-ordered_json Foreign::sampled(const ordered_json& clip, int node, const std::string& path) {
+ordered_json OtherProgram::sampled(const ordered_json& clip, int node, const std::string& path) {
   const bool rotation = path == "rotation";
   const ordered_json& own = json()["nodes"][static_cast<std::size_t>(node)];
   const ordered_json standard = rotation          ? ordered_json{0, 0, 0, 1}
@@ -210,7 +210,7 @@ ordered_json Foreign::sampled(const ordered_json& clip, int node, const std::str
   return {{"input", input}, {"output", output}};
 }
 
-void Foreign::move_bind(const math::Affine& motion) {
+void OtherProgram::move_bind(const math::Affine& motion) {
   const math::Affine back = inverse(motion);
   std::set<std::size_t> done;
   for (const ordered_json& skin : json()["skins"]) {

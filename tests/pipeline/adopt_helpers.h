@@ -15,23 +15,23 @@ namespace rigc::test {
 
 /// A biped's rig with a clip `walk` on its controls (linear translation and rotation of the body,
 /// steps of a hand, keys on an attribute), and where its parts are.
-struct Shot {
+struct WalkShot {
   std::string path;
   int body = -1, hand = -1, settings = -1, free = -1;  ///< glTF nodes
   std::string identity(int node) const;
 };
-Shot make_shot(const std::string& name);
+WalkShot make_shot(const std::string& name);
 
 /// What Blender leaves of a file: no extensions, no pointers; nodes in another order, under other
 /// names; line meshes gone; every clip sampled at 24 frames a second, all three channels of every
 /// node that it moves, up to the last whole frame.
-class Foreign {
+class OtherProgram {
  public:
-  explicit Foreign(const std::string& path);
+  explicit OtherProgram(const std::string& path);
 
   nlohmann::ordered_json& json() { return character_.json; }
   /// The node that says the same as one of the shot's.
-  nlohmann::ordered_json& node(const Shot& shot, int index);
+  nlohmann::ordered_json& node(const WalkShot& shot, int index);
   int index(const nlohmann::ordered_json& node);
   std::vector<float> floats(const nlohmann::ordered_json& accessor) const;
   int add_accessor(const std::string& type, const std::vector<float>& values, std::size_t count);

@@ -24,12 +24,12 @@ using test::adopted;
 using test::bytes_of;
 using test::clip_of;
 using test::find;
-using test::Foreign;
 using test::make_shot;
 using test::near;
+using test::OtherProgram;
 using test::rig_of;
-using test::Shot;
 using test::value_at;
+using test::WalkShot;
 
 /// Farthest that a joint comes from where it was, over the clip of two files.
 double largest_motion_difference(const std::string& a, const std::string& b,
@@ -58,8 +58,8 @@ double largest_motion_difference(const std::string& a, const std::string& b,
 }  // namespace
 
 TEST_CASE("adopt: a file in which nothing was edited changes no byte") {
-  const Shot shot = make_shot("same");
-  Foreign foreign(shot.path);
+  const WalkShot shot = make_shot("same");
+  OtherProgram foreign(shot.path);
   const std::string edited = test::test_out("adopt_same_edited.glb");
   foreign.save(edited);
   const std::string out = test::test_out("adopt_same_out.glb");
@@ -76,8 +76,8 @@ TEST_CASE("adopt: a file in which nothing was edited changes no byte") {
 }
 
 TEST_CASE("adopt: keys, clips, transforms and attributes arrive, the rest stays") {
-  const Shot shot = make_shot("edit");
-  Foreign foreign(shot.path);
+  const WalkShot shot = make_shot("edit");
+  OtherProgram foreign(shot.path);
   ordered_json& json = foreign.json();
   // Unkeyed: a control moved, an attribute set; a control that is keyed stands where its clip is.
   foreign.node(shot, shot.free)["translation"] = {0.1, 0.2, 0.3};
@@ -146,7 +146,7 @@ TEST_CASE("adopt: keys, clips, transforms and attributes arrive, the rest stays"
 }
 
 TEST_CASE("adopt: placements of joints go into the tags and the joints' nodes") {
-  const Shot shot = make_shot("joints");
+  const WalkShot shot = make_shot("joints");
   const gltf::Rig before = rig_of(shot.path);
   const auto joint_of = [&](const gltf::Rig& rig, const std::string& local,
                             const std::string& label) {
@@ -158,7 +158,7 @@ TEST_CASE("adopt: placements of joints go into the tags and the joints' nodes") 
     return std::size_t{0};
   };
   // A joint without a skin: of others the bind pose counts, which is not as easily edited here.
-  Foreign foreign(shot.path);
+  OtherProgram foreign(shot.path);
   foreign.json().erase("skins");
   for (ordered_json& node : foreign.json()["nodes"]) {
     node.erase("skin");
@@ -199,31 +199,32 @@ TEST_CASE("adopt: placements of joints go into the tags and the joints' nodes") 
 }
 
 TEST_CASE("adopt: copies, strangers, files that say nothing, and clips that are not there") {
-  const Shot shot = make_shot("errors");
+  const WalkShot shot = make_shot("errors");
   const std::string out = test::test_out("adopt_errors_out.glb");
   const std::string edited = test::test_out("adopt_errors_edited.glb");
   std::remove(out.c_str());
-  const auto codes_of = [&](const Foreign& foreign, const std::vector<std::string>& clips = {}) {
+  const auto codes_of = [&](const OtherProgram& foreign,
+                            const std::vector<std::string>& clips = {}) {
     foreign.save(edited);
     Diagnostics diagnostics;
     adopt(edited, shot.path, out, diagnostics, false, clips);
     return test::codes(diagnostics);
   };
-  Foreign silent(shot.path);
+  OtherProgram silent(shot.path);
   for (ordered_json& node : silent.json()["nodes"]) node.erase("extras");
   CHECK(codes_of(silent) == "RIG0852");
-  Foreign strangers(shot.path);
+  OtherProgram strangers(shot.path);
   for (ordered_json& node : strangers.json()["nodes"])
     if (node.contains("extras") && node["extras"].contains("rigc"))
       node["extras"]["rigc"] = "7" + node["extras"]["rigc"].get<std::string>().substr(1);
   CHECK(codes_of(strangers) == "RIG0852");
-  Foreign copies(shot.path);
+  OtherProgram copies(shot.path);
   copies.node(shot, shot.body)["extras"] = copies.node(shot, shot.free)["extras"];
   CHECK(codes_of(copies) == "RIG0853");
-  Foreign clip(shot.path);
+  OtherProgram clip(shot.path);
   CHECK(codes_of(clip, {"run"}) == "RIG0755");
   CHECK_FALSE(file_exists(out));
-  Foreign stranger(shot.path);
+  OtherProgram stranger(shot.path);
   stranger.node(shot, shot.body)["extras"]["rigc"] = "0:0123456789abcdef";
   CHECK(codes_of(stranger) == "RIG0854");
   CHECK(file_exists(out));
@@ -240,8 +241,8 @@ TEST_CASE("adopt: copies, strangers, files that say nothing, and clips that are 
 }
 
 TEST_CASE("adopt: where nothing was edited the joints move as before") {
-  const Shot shot = make_shot("motion");
-  Foreign foreign(shot.path);
+  const WalkShot shot = make_shot("motion");
+  OtherProgram foreign(shot.path);
   foreign.node(shot, shot.settings)["extras"]["ik_fk"] = 0.25;  // keyed: no effect in the clip
   const std::string edited = test::test_out("adopt_motion_edited.glb");
   foreign.save(edited);
@@ -252,7 +253,7 @@ TEST_CASE("adopt: where nothing was edited the joints move as before") {
 }
 
 TEST_CASE("adopt: keys on attributes that the other program kept, and only the clips asked for") {
-  const Shot shot = make_shot("pointer");
+  const WalkShot shot = make_shot("pointer");
   Diagnostics diagnostics;
   const auto file = gltf::open(shot.path, diagnostics);
   REQUIRE(file);
@@ -282,8 +283,8 @@ TEST_CASE("adopt: keys on attributes that the other program kept, and only the c
 }
 
 TEST_CASE("adopt: a character that is bound elsewhere as a whole has no edited joints") {
-  const Shot shot = make_shot("bind");
-  Foreign foreign(shot.path);
+  const WalkShot shot = make_shot("bind");
+  OtherProgram foreign(shot.path);
   foreign.move_bind({math::matrix(math::from_euler_degrees({10, 20, 30})), {0.5, 1, 2}});
   const std::string edited = test::test_out("adopt_bind_edited.glb");
   foreign.save(edited);

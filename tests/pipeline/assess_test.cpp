@@ -128,6 +128,10 @@ TEST_CASE("pipeline assess: contents that changed without a new version, and new
   CHECK(told(now) == "rebuild | lamp changed without a new version");
   CHECK(now.needs_update());
   CHECK(now.templates[0].state == TemplateState::changed);
+  // What an edited template no longer uses does not stop it.
+  shop.lamp = template_text("lamp", 7);
+  CHECK(told(shop.assess(references, {{"gone", 1}})) ==
+        "rebuild | lamp changed without a new version");
   shop = Shop();
   shop.joint += "# edited\n";
   CHECK(told(shop.assess(references)) == "rebuild | part joint changed without a new version");
@@ -145,12 +149,14 @@ TEST_CASE("pipeline assess: what cannot be updated says why") {
   shop = Shop();
   shop.arm = template_text("arm", 1, "parts: [{template: joint, as: joint}]\n");
   CHECK(told(shop.assess(references)) == "cannot | made with part parts/arm 2, but 1 is found");
+  CHECK_FALSE(shop.assess(references).lost);
   shop = Shop();
   CHECK(told(shop.assess(references, {{"bounce", 4}, {"gone", 1}})) ==
         "cannot | made by module bounce 4, this rigc has 3; there is no module gone");
   references[0].name = "torch";
   const auto now = shop.assess(references);
   CHECK(told(now) == "cannot | no template torch is found");
+  CHECK(now.lost);
   CHECK(now.templates[0].found == 0);
   CHECK(told(shop.assess({})) == "cannot | the rig does not say which template made it");
   references = shop.references();

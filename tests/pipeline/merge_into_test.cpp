@@ -444,4 +444,16 @@ TEST_CASE("merge into: what cannot become one is refused") {
   CHECK(codes({hero, twins}, "hero", {"stick=spine.chest"}) == "RIG0695");
   CHECK(join({hero, twins}, "twins_joined", "hero", {"stick=spine.chest", "other=head.head"})
             .codes.empty());
+
+  // Somebody's edit: a joint that no node of the rig stands for.
+  std::string bare = kStick;
+  bare.erase(bare.rfind("    tags:\n"));
+  test::Character edited = test::load_glb(build(write("bare.yaml", bare), "stick_edited"));
+  auto& joints = edited.json["extensions"]["RIGC_rig"]["rigs"][0]["joints"];
+  joints.push_back(joints[1]);
+  joints[2]["key"] = "00000000000000aa";
+  joints[2]["label"] = "c";
+  const std::string odd = folder() + "/stick_edited.glb";
+  test::save_glb(edited, odd);
+  CHECK(codes({odd, extra}, "stick", {"third=stick.c"}) == "RIG0696");
 }

@@ -37,6 +37,60 @@ void write_biped(const std::string& folder, int version, const std::vector<TextE
   }
 }
 
+std::string fk_arm(int version) {
+  return fmt::format(R"(rigc: 1
+name: story
+version: {}
+joints:
+  - name: chest
+    at: [0, 1.4, 0]
+    local: body
+    label: chest
+    tags:
+      - command: control
+        with: {{size: 0.4}}
+  - name: shoulder
+    parent: chest
+    at: [0.2, 1.4, 0]
+    local: arm
+    label: shoulder
+    tags:
+      - command: fk_chain
+        with: {{joints: [arm.shoulder, arm.elbow, arm.wrist], size: 0.2}}
+  - name: elbow
+    parent: shoulder
+    at: [0.5, 1.4, -0.04]
+    local: arm
+    label: elbow
+  - name: wrist
+    parent: elbow
+    at: [0.8, 1.4, 0]
+    local: arm
+    label: wrist
+)",
+                     version);
+}
+
+std::string ik_fk_arm(int version) {
+  return replaced(
+      fk_arm(version),
+      "fk_chain\n        with: {joints: [arm.shoulder, arm.elbow, arm.wrist], size: 0.2}",
+      "ik_fk_limb\n        with: {start: arm.shoulder, middle: arm.elbow, end: "
+      "arm.wrist, bend: backward}");
+}
+
+scene::NodeId control(const gltf::Rig& rig, const std::string& local, const std::string& label,
+                      const std::string& role) {
+  for (const scene::NodeId id : rig.scene.nodes()) {
+    const scene::Node& node = rig.scene[id];
+    if (node.kind == scene::Kind::control && node.ids.local == local && node.ids.label == label &&
+        node.identity.role == role)
+      return id;
+  }
+  FAIL("no control " << local << "." << label << " " << role);
+  return {};
+}
+
 std::vector<TextEdit> without_clavicle() {
   const std::string arm = bytes_of(templates_folder() + "/parts/arm.yaml");
   const std::size_t from = arm.find("  - name: clavicle\n"), to = arm.find("  - name: shoulder\n");

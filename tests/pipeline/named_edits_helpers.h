@@ -22,6 +22,17 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 /// The clavicle's joint in the arm's template, as an edit that takes it out.
 std::vector<TextEdit> without_clavicle();
 
+/// Rounding of joints whose place is computed anew, in heights of the character.
+inline constexpr double kRounding = 1e-12;
+/// The same where keys are converted, which are floats.
+inline constexpr double kConverted = 1e-6;
+
+/// A template of a chest with an arm that FK controls turn, or a limb that has FK and IK.
+std::string fk_arm(int version);
+std::string ik_fk_arm(int version);
+scene::NodeId control(const gltf::Rig& rig, const std::string& local, const std::string& label,
+                      const std::string& role);
+
 /// A shot in a folder of its own, with the templates beside it.
 struct Story {
   std::string folder, shot;

@@ -16,29 +16,18 @@
 namespace rigc {
 namespace {
 
+using test::rebuild;
 using test::Shot;
 using test::Story;
+using test::unbuild;
 
 std::string said(const Diagnostics& diagnostics) { return render(diagnostics, false); }
-
-pipeline::Rebuilt rebuild(const std::string& path, const pipeline::RebuildRequest& request = {}) {
-  Diagnostics diagnostics;
-  const auto rebuilt = pipeline::rebuild(request, {path, path, ""}, diagnostics);
-  REQUIRE_MESSAGE(rebuilt, said(diagnostics));
-  return *rebuilt;
-}
 
 pipeline::Rebuilt rebuild_with(const std::string& path, const std::string& feature,
                                const std::string& group = "") {
   pipeline::RebuildRequest request;
   if (!feature.empty()) request.features = {feature};
   if (!group.empty()) request.groups = {group};
-  return rebuild(path, request);
-}
-
-pipeline::Rebuilt unbuild(const std::string& path) {
-  pipeline::RebuildRequest request;
-  request.unbuild = true;
   return rebuild(path, request);
 }
 
@@ -193,17 +182,17 @@ TEST_CASE("rebuild: strict and tolerance leave the file alone") {
   Diagnostics diagnostics;
   SUBCASE("strict") {
     request.strict = true;
-    CHECK(!pipeline::rebuild(request, {s.shot, s.shot, ""}, diagnostics));
+    CHECK(!pipeline::rebuild(request, catalog::Catalogue(), {s.shot, s.shot, ""}, diagnostics));
     CHECK(numbers(diagnostics) == std::vector<int>{pipeline::codes::kWouldOrphan.number});
   }
   SUBCASE("tolerance") {
     request.tolerance_mm = 0.1;
-    CHECK(!pipeline::rebuild(request, {s.shot, s.shot, ""}, diagnostics));
+    CHECK(!pipeline::rebuild(request, catalog::Catalogue(), {s.shot, s.shot, ""}, diagnostics));
     CHECK(numbers(diagnostics) == std::vector<int>{pipeline::codes::kMoves.number});
   }
   SUBCASE("a rig that the file has not") {
     request.rigs = {"nobody"};
-    CHECK(!pipeline::rebuild(request, {s.shot, s.shot, ""}, diagnostics));
+    CHECK(!pipeline::rebuild(request, catalog::Catalogue(), {s.shot, s.shot, ""}, diagnostics));
     CHECK(numbers(diagnostics) == std::vector<int>{pipeline::codes::kNoSuchRig.number});
     CHECK(said(diagnostics).find("its rigs: limb") != std::string::npos);
   }
@@ -214,7 +203,7 @@ TEST_CASE("rebuild: a file without a rig is refused") {
   const std::string path = test::fresh_folder("rebuild_none") + "/model.gltf";
   test::write_text(path, R"({"asset": {"version": "2.0"}, "nodes": [{}]})");
   Diagnostics diagnostics;
-  CHECK(!pipeline::rebuild({}, {path, path, ""}, diagnostics));
+  CHECK(!pipeline::rebuild({}, catalog::Catalogue(), {path, path, ""}, diagnostics));
   CHECK(!pipeline::strip({}, {path, path, ""}, diagnostics));
   CHECK(!pipeline::prune({}, {path, path, ""}, diagnostics));
   CHECK(numbers(diagnostics) == std::vector<int>(3, pipeline::codes::kNoRigHere.number));

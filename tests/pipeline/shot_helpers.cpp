@@ -322,6 +322,20 @@ std::vector<std::string> keys_of(const Shot& shot) {
   return lines;
 }
 
+pipeline::Rebuilt rebuild(const std::string& path, const pipeline::RebuildRequest& request) {
+  Diagnostics diagnostics;
+  const auto rebuilt =
+      pipeline::rebuild(request, catalog::Catalogue(), {path, path, ""}, diagnostics);
+  REQUIRE_MESSAGE(rebuilt, said(diagnostics));
+  return *rebuilt;
+}
+
+pipeline::Rebuilt unbuild(const std::string& path) {
+  pipeline::RebuildRequest request;
+  request.unbuild = true;
+  return rebuild(path, request);
+}
+
 pipeline::FileResult update(const std::string& path, const std::string& templates,
                             pipeline::UpdateSettings settings) {
   settings.paths.templates = {templates};

@@ -11,6 +11,7 @@
 
 #include "anim/clip.h"
 #include "gltf/rig.h"
+#include "pipeline/rebuild.h"
 #include "pipeline/update.h"
 
 namespace rigc::test {
@@ -54,6 +55,11 @@ double motion_difference(const Shot& a, const Shot& b, const std::string& global
 /// Every key and every value without keys of a file's rigs and orphans: one line for each, that
 /// names the rig, what it belongs to, the clip, the times and the values.
 std::vector<std::string> keys_of(const Shot& shot);
+
+/// Builds the rigs of a file again in place, or takes them apart, with the modules that come with
+/// rigc; checks that it did not fail.
+pipeline::Rebuilt rebuild(const std::string& path, const pipeline::RebuildRequest& request = {});
+pipeline::Rebuilt unbuild(const std::string& path);
 
 /// Updates a file in place and gives the result; checks that it did not fail.
 pipeline::FileResult update(const std::string& path, const std::string& templates,

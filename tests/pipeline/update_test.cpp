@@ -11,23 +11,15 @@
 #include "pipeline/bake_file.h"
 #include "pipeline/character_helpers.h"
 #include "pipeline/codes.h"
+#include "pipeline/named_edits_helpers.h"
 #include "pipeline/shot_helpers.h"
 #include "pipeline/update_codes.h"
 
 namespace rigc {
 namespace {
 
+using test::differences;
 using test::Shot;
-
-/// Lines that only one of two lists has.
-std::string differences(const std::vector<std::string>& a, const std::vector<std::string>& b) {
-  std::string out;
-  for (const std::string& line : a)
-    if (std::find(b.begin(), b.end(), line) == b.end()) out += "- " + line.substr(0, 150) + "\n";
-  for (const std::string& line : b)
-    if (std::find(a.begin(), a.end(), line) == a.end()) out += "+ " + line.substr(0, 150) + "\n";
-  return out;
-}
 
 /// A limb of three joints with FK controls; `body` are further tags of the first.
 std::string limb(int version, const std::string& more = "") {

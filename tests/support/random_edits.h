@@ -14,6 +14,12 @@
 
 namespace rigc::test {
 
+/// Index of one of some things.
+template <class T>
+std::size_t any(const std::vector<T>& items, Random& random) {
+  return random.below(items.size());
+}
+
 struct EditOptions {
   bool turns = false;       ///< edits that turn the axes of controls, so that keys are converted
   std::size_t groups = 3;   ///< limbs to begin with
@@ -60,6 +66,7 @@ class EditedTemplate {
   enum class Drive { none, chain, controls, limb };
 
   static std::string text_of(const Command& command);
+  static std::string on_control(const std::string& id);
   int serial() { return next_++; }
   void remember_places();
   std::string any_edit(Random& random);
