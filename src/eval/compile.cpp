@@ -4,6 +4,7 @@
 // cycle. Components are plugs of their own, so translate.x may depend on translate.y.
 // Test: tests/eval/compile_test.cpp
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <unordered_map>
 
@@ -15,7 +16,9 @@
 #include "eval/limits.h"
 #include "eval/program.h"
 #include "eval/rules.h"
+#include "eval/schedule.h"
 #include "eval/values.h"
+#include "eval/worlds.h"
 
 namespace rigc::eval {
 
@@ -98,7 +101,7 @@ class Compiler {
       outputs.push_back(known_.at({plug}).operand);
     }
     if (diagnostics_.errors() != before_) return std::nullopt;
-    return emitter_.finish(inputs_, outputs);
+    return schedule(emitter_, inputs_, outputs);
   }
 
  private:
@@ -173,7 +176,7 @@ class Compiler {
 
   void open(const Key& key) {
     // What a member of a cycle is worth does not matter: the program is not handed out.
-    known_.emplace(key, Known{true, emitter_.constant(std::vector<double>(width_of(key), 0.0))});
+    known_.emplace(key, Known{true, slice(nothing_, 0, width_of(key))});
     stack_.push_back({key, plan(key), 0});
   }
 
@@ -352,7 +355,7 @@ class Compiler {
     if (diagnostics_.errors() == before_) {
       refuse(key.plug, fmt::format("it has no {}", scene_.plug_name(key.plug)));
     }
-    return emitter_.constant(std::vector<double>(plan.width, 0.0));
+    return slice(nothing_, 0, plan.width);
   }
 
   // Outputs have no value in the scene: the one that is constant is the parent of a root.
@@ -371,16 +374,15 @@ class Compiler {
   }
 
   Operand build_world(const std::vector<Operand>& operands, std::uint32_t node) {
-    const Operand local =
-        emitter_.emit(Op::compose, {operands[0], operands[1], operands[2]}, {}, 12, node);
-    if (operands.size() == 3) return local;
-    return emitter_.emit(Op::multiply, {operands[3], local}, {}, 12, node);
+    Placement placement{{}, operands[0], operands[1], operands[2]};
+    if (operands.size() > 3) placement.parent = operands[3];
+    return emit_world(emitter_, placement, node);
   }
 
   Operand build_block(NodeId node, const std::vector<Operand>& operands) {
     const auto emitted =
         rule(scene_[node].kind).emit(emitter_, scene_, node, operands, diagnostics_);
-    return emitted ? *emitted : emitter_.constant({});
+    return emitted ? *emitted : slice(nothing_, 0, 0);
   }
 
   const scene::Scene& scene_;
@@ -388,6 +390,7 @@ class Compiler {
   std::size_t before_;
   Limits limits_;
   Emitter emitter_;
+  Operand nothing_ = emitter_.constant(std::array<double, 12>{});  // of what is wrong
   std::vector<Operand> inputs_;
   std::unordered_map<Key, Operand, KeyHash> varying_;
   std::unordered_map<Key, Known, KeyHash> known_;

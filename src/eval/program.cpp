@@ -2,6 +2,8 @@
 // A program as text. Test: tests/eval/program_test.cpp
 #include "eval/program.h"
 
+#include <span>
+
 #include <fmt/format.h>
 #include "base/text.h"
 #include "eval/kernels/table.h"
@@ -15,6 +17,13 @@ std::string text_of(const Register& r) {
   return r.width == 1 ? fmt::format("r{}", r.row) : fmt::format("r{}+{}", r.row, r.width);
 }
 
+// [1 2 3]: the kernel's own table.
+std::string table_text(std::span<const double> numbers) {
+  std::string out;
+  for (const double n : numbers) out += (out.empty() ? " [" : " ") + number_text(n);
+  return out.empty() ? out : out + "]";
+}
+
 }  // namespace
 
 std::string Program::dump(const scene::Scene& scene) const {
@@ -26,6 +35,7 @@ std::string Program::dump(const scene::Scene& scene) const {
     for (std::uint32_t a = 0; a < i.argument_count; ++a) {
       out += fmt::format(" {}", text_of(arguments[i.first_argument + a]));
     }
+    out += table_text(std::span(data).subspan(i.data, i.data_count));
     const scene::Node& node = scene[scene::NodeId{i.node}];
     out += fmt::format("  # {} {}\n", spec(node.kind).name, printable(node.name));
   }

@@ -30,6 +30,7 @@ struct Instruction {
   std::uint32_t first_argument = 0;  ///< into Program::arguments
   std::uint32_t argument_count = 0;
   std::uint32_t data = 0;  ///< into Program::data; its meaning is the kernel's
+  std::uint32_t data_count = 0;
   std::uint32_t node = 0;  ///< index of the scene node it came from
 };
 
