@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <utility>
 
 #include "eval/similarity.h"
 
 namespace rigc::eval {
 
 namespace {
+
+constexpr std::uint32_t kNone = UINT32_MAX;
 
 std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
   hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
@@ -41,24 +44,31 @@ constexpr std::size_t kAimWorldLinear = 2;
 
 }  // namespace
 
-Emitter::Emitter() : index_(64, Hash{this}, Same{this}) {}
-
-std::size_t Emitter::Hash::operator()(std::uint32_t value) const {
-  const Definition& d = emitter->values_[value];
+std::uint32_t Emitter::hash_of(const Definition& d) const {
   std::uint64_t hash =
       mixed(static_cast<std::uint64_t>(d.source) * 256 + static_cast<std::uint64_t>(d.op), d.width);
-  for (const Operand& a : emitter->arguments(d))
+  for (const Operand& a : arguments(d))
     hash = mixed(mixed(hash, a.value), (std::uint64_t{a.offset} << 32) + a.width);
-  for (const double n : emitter->data(d)) hash = mixed(hash, std::bit_cast<std::uint64_t>(n));
-  return static_cast<std::size_t>(hash);
+  for (const double n : data(d)) hash = mixed(hash, std::bit_cast<std::uint64_t>(n));
+  return static_cast<std::uint32_t>(hash);
 }
 
-bool Emitter::Same::operator()(std::uint32_t a, std::uint32_t b) const {
-  const Definition& x = emitter->values_[a];
-  const Definition& y = emitter->values_[b];
-  return x.source == y.source && x.op == y.op && x.width == y.width &&
-         std::ranges::equal(emitter->arguments(x), emitter->arguments(y)) &&
-         std::ranges::equal(emitter->data(x), emitter->data(y), same_bits);
+bool Emitter::same(const Definition& a, const Definition& b) const {
+  return a.source == b.source && a.op == b.op && a.width == b.width &&
+         std::ranges::equal(arguments(a), arguments(b)) &&
+         std::ranges::equal(data(a), data(b), same_bits);
+}
+
+void Emitter::grow() {
+  std::vector<Slot> larger(index_.size() * 2);
+  const std::size_t mask = larger.size() - 1;
+  for (const Slot& slot : index_) {
+    if (slot.value == kNone) continue;
+    std::size_t at = slot.hash & mask;
+    while (larger[at].value != kNone) at = (at + 1) & mask;
+    larger[at] = slot;
+  }
+  index_ = std::move(larger);
 }
 
 std::span<const Operand> Emitter::arguments(const Definition& d) const {
@@ -78,12 +88,21 @@ math::Affine Emitter::matrix(const Operand& constant) const { return matrix_of(n
 
 std::uint32_t Emitter::unify() {
   const auto newest = static_cast<std::uint32_t>(values_.size() - 1);
-  const auto [found, fresh] = index_.insert(newest);
-  if (fresh) return newest;
-  arguments_.resize(values_.back().first_argument);
-  data_.resize(values_.back().data);
-  values_.pop_back();
-  return *found;
+  const Definition& d = values_.back();
+  const std::uint32_t hash = hash_of(d);
+  if (2 * (indexed_ + 1) > index_.size()) grow();
+  const std::size_t mask = index_.size() - 1;
+  std::size_t at = hash & mask;
+  for (; index_[at].value != kNone; at = (at + 1) & mask) {
+    if (index_[at].hash != hash || !same(values_[index_[at].value], d)) continue;
+    arguments_.resize(d.first_argument);
+    data_.resize(d.data);
+    values_.pop_back();
+    return index_[at].value;
+  }
+  index_[at] = {hash, newest};
+  ++indexed_;
+  return newest;
 }
 
 Operand Emitter::constant(std::span<const double> numbers) {

@@ -8,7 +8,6 @@
 
 #include <cstdint>
 #include <span>
-#include <unordered_set>
 #include <vector>
 
 #include "eval/kernels/table.h"
@@ -47,9 +46,7 @@ struct Definition {
 
 class Emitter {
  public:
-  Emitter();
-  Emitter(const Emitter&) = delete;  // its index points into itself
-  Emitter& operator=(const Emitter&) = delete;
+  Emitter() : index_(256) {}
 
   Operand constant(std::span<const double> numbers);
   Operand constant(std::initializer_list<double> numbers) {
@@ -81,14 +78,10 @@ class Emitter {
   const std::vector<Definition>& values() const { return values_; }
 
  private:
-  // Values by what they are, for finding equal ones.
-  struct Hash {
-    const Emitter* emitter;
-    std::size_t operator()(std::uint32_t value) const;
-  };
-  struct Same {
-    const Emitter* emitter;
-    bool operator()(std::uint32_t a, std::uint32_t b) const;
+  // A place of the index: open addressing, a power of two of them, at most half of them taken.
+  struct Slot {
+    std::uint32_t hash = 0;
+    std::uint32_t value = UINT32_MAX;  // none
   };
 
   Operand whole(std::uint32_t value) const { return {value, 0, values_[value].width}; }
@@ -97,11 +90,15 @@ class Emitter {
   Operand fold(Op op, std::span<const Operand> arguments, std::span<const double> data,
                std::uint32_t width);
   double scale_of_newest() const;
+  std::uint32_t hash_of(const Definition& definition) const;
+  bool same(const Definition& a, const Definition& b) const;
+  void grow();
 
   std::vector<Definition> values_;
   std::vector<Operand> arguments_;
   std::vector<double> data_;
-  std::unordered_set<std::uint32_t, Hash, Same> index_;
+  std::vector<Slot> index_;  // by what values are, to find equal ones
+  std::size_t indexed_ = 0;
   std::vector<double> registers_;  // of folding
 };
 

@@ -218,8 +218,8 @@ TEST_CASE("eval direct: constant weights leave out who has none") {
       rig.b.edit.set({rig.node, constraint::kWeights, i}, i == alone ? 0.25 : 0.0);
     CHECK(!has(rig.program(rig.settings), Op::blend));
     CHECK(difference(rig) < kBound);
-    const auto target = eval::worlds(rig.b.scene, {rig.targets[static_cast<std::size_t>(alone)]},
-                                     rig.settings)[0];
+    const auto target =
+        eval::worlds(rig.b.scene, {rig.targets[static_cast<std::size_t>(alone)]}, rig.settings)[0];
     const auto offset =
         std::get<math::Affine>(rig.b.scene.value({rig.node, constraint::kOffsets, alone}));
     CHECK(test::distance(math::decompose(rig.world(rig.settings)).rotation,
@@ -275,9 +275,9 @@ TEST_CASE("eval direct: a translate alone, moved or from a point constraint") {
   Random random(7);
   double most = 0;
   for (int i = 0; i < 100; ++i) {
-    Driven rig({random.chance(50) ? Kind::parent_constraint : Kind::point_constraint, 1, true,
-                false},
-               random);
+    Driven rig(
+        {random.chance(50) ? Kind::parent_constraint : Kind::point_constraint, 1, true, false},
+        random);
     rig.b.edit.disconnect({rig.driven, transform::kRotation});
     if (rig.b.scene[rig.node].kind == Kind::point_constraint)
       rig.b.edit.set({rig.node, constraint::kOffsets, 0}, math::Affine{});
@@ -311,9 +311,8 @@ TEST_CASE("eval direct: who asks for the constraint's own values gets them") {
                                       {rig.driven, transform::kWorld}},
                                      rig.settings, diagnostics);
   REQUIRE(values);
-  const math::Affine local = math::compose({std::get<Vec3>((*values)[0]),
-                                            std::get<Quat>((*values)[1]),
-                                            std::get<Vec3>((*values)[2])});
+  const math::Affine local = math::compose(
+      {std::get<Vec3>((*values)[0]), std::get<Quat>((*values)[1]), std::get<Vec3>((*values)[2])});
   const auto parent = std::get<math::Affine>((*values)[3]);
   const auto world = std::get<math::Affine>((*values)[4]);
   CHECK(test::distance(parent * local, world) < kBound * 20);

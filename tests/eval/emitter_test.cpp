@@ -32,7 +32,8 @@ TEST_CASE("eval emitter: equal constants and instructions are one value, inputs 
 
 TEST_CASE("eval emitter: what is constant is computed at once") {
   Emitter emitter;
-  const Operand three = emitter.emit(Op::add, {emitter.constant({1}), emitter.constant({2})}, {}, 1, 0);
+  const Operand three =
+      emitter.emit(Op::add, {emitter.constant({1}), emitter.constant({2})}, {}, 1, 0);
   REQUIRE(emitter.is_constant(three));
   CHECK(emitter.numbers(three)[0] == 3);
   CHECK(three == emitter.constant({3}));

@@ -45,15 +45,16 @@ TEST_CASE("eval worlds kernels: compose_under") {
   for (int i = 0; i < 100; ++i) {
     const math::Quat q = random.rotation();
     const Vec3 t = random.vector(3);
-    const auto lanes =
-        lanes_of(random, [](Random& r) { return Arguments{r.vector(5), r.rotation()}; });
-    const auto got = test::run_kernel(Op::compose_under, lanes, {t.x, t.y, t.z, q.x, q.y, q.z, q.w},
-                                      12);
+    const auto lanes = lanes_of(random, [](Random& r) {
+      return Arguments{r.vector(5), r.rotation()};
+    });
+    const auto got =
+        test::run_kernel(Op::compose_under, lanes, {t.x, t.y, t.z, q.x, q.y, q.z, q.w}, 12);
     for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
-      const Affine expected = Affine{math::matrix(q), t} *
-                              math::compose({std::get<Vec3>(lanes[lane][0]),
-                                             std::get<math::Quat>(lanes[lane][1]),
-                                             {1, 1, 1}});
+      const Affine expected =
+          Affine{math::matrix(q), t} *
+          math::compose(
+              {std::get<Vec3>(lanes[lane][0]), std::get<math::Quat>(lanes[lane][1]), {1, 1, 1}});
       CHECK(test::distance(test::affine_of(got[lane]), expected) < 1e-14);
     }
   }
@@ -120,14 +121,14 @@ TEST_CASE("eval worlds kernels: aim_world is aim, put together again") {
   for (int i = 0; i < 200; ++i) {
     const math::Trs parent = random.trs();
     const Vec3 position = random.vector();
-    const Arguments arguments{math::compose(parent), position,      any_affine(random),
+    const Arguments arguments{math::compose(parent), position,           any_affine(random),
                               random.direction(),    any_affine(random), 1.0};
     const auto mode = static_cast<double>(random.below(3));
     const math::Quat offset = random.rotation();
     const math::Mat3 r = math::matrix(offset);
     Numbers table{1, mode};
-    const Numbers linear = joined({r.x * parent.scale.x, r.y * parent.scale.x, r.z * parent.scale.x},
-                                  {});
+    const Numbers linear =
+        joined({r.x * parent.scale.x, r.y * parent.scale.x, r.z * parent.scale.x}, {});
     table.insert(table.end(), linear.begin(), linear.begin() + 9);
     const Numbers got = test::run_kernel_once(Op::aim_world, arguments, table, 12);
     const Numbers local = test::run_kernel_once(

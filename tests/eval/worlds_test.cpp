@@ -22,8 +22,7 @@ namespace transform = scene::transform;
 
 std::vector<Op> ops_of(const SceneBuilder& b, const std::vector<scene::Plug>& inputs, NodeId node) {
   Diagnostics diagnostics;
-  const auto program =
-      eval::compile(b.scene, {inputs, {{node, transform::kWorld}}}, diagnostics);
+  const auto program = eval::compile(b.scene, {inputs, {{node, transform::kWorld}}}, diagnostics);
   REQUIRE(program);
   std::vector<Op> ops;
   for (const eval::Instruction& i : program->instructions) ops.push_back(i.op);
@@ -40,7 +39,8 @@ TEST_CASE("eval worlds: a static chain under what moves costs one instruction") 
   Random random(1);
   SceneBuilder b;
   const NodeId root = b.transform("root");
-  const std::vector<scene::Plug> moving{{root, transform::kTranslate}, {root, transform::kRotation}};
+  const std::vector<scene::Plug> moving{{root, transform::kTranslate},
+                                        {root, transform::kRotation}};
   NodeId at = root;
   for (int i = 0; i < 20; ++i) {
     at = b.transform("n", at);
@@ -89,7 +89,8 @@ TEST_CASE("eval worlds: any part of any hierarchy moves as it would by itself") 
     std::vector<NodeId> nodes;
     std::vector<eval::Setting> settings;
     for (int n = 0; n < 25; ++n) {
-      const NodeId above = n == 0 || random.chance(10) ? NodeId{} : nodes[random.below(nodes.size())];
+      const NodeId above =
+          n == 0 || random.chance(10) ? NodeId{} : nodes[random.below(nodes.size())];
       const NodeId id = b.transform("n", above);
       nodes.push_back(id);
       math::Trs trs = random.trs(random.chance(50));
