@@ -24,11 +24,29 @@ std::string table_text(std::span<const double> numbers) {
   return out.empty() ? out : out + "]";
 }
 
+// input r5+3  # translate of control hip
+std::string ports_text(std::string_view what, const std::vector<Register>& registers,
+                       const std::vector<scene::Plug>* plugs, const scene::Scene& scene) {
+  std::string out;
+  for (std::size_t i = 0; i < registers.size(); ++i) {
+    out += fmt::format("{} {}", what, text_of(registers[i]));
+    if (plugs) {
+      const scene::Plug& plug = (*plugs)[i];
+      const scene::Node& node = scene[plug.node];
+      out += fmt::format("  # {} of {} {}", printable(scene.plug_name(plug)), spec(node.kind).name,
+                         printable(node.name));
+    }
+    out += '\n';
+  }
+  return out;
+}
+
 }  // namespace
 
-std::string Program::dump(const scene::Scene& scene) const {
+std::string Program::dump(const scene::Scene& scene, const Request* request,
+                          const Sources* sources) const {
   std::string out = fmt::format("rows {}\n", rows);
-  for (const Register& input : inputs) out += fmt::format("input {}\n", text_of(input));
+  out += ports_text("input", inputs, request ? &request->inputs : nullptr, scene);
   for (const Constant& c : constants) out += fmt::format("r{} = {}\n", c.row, number_text(c.value));
   for (const Instruction& i : instructions) {
     out += fmt::format("{} = {}", text_of(i.out), row(i.op).name);
@@ -37,9 +55,12 @@ std::string Program::dump(const scene::Scene& scene) const {
     }
     out += table_text(std::span(data).subspan(i.data, i.data_count));
     const scene::Node& node = scene[scene::NodeId{i.node}];
-    out += fmt::format("  # {} {}\n", spec(node.kind).name, printable(node.name));
+    out += fmt::format("  # {} {}", spec(node.kind).name, printable(node.name));
+    const Span& span = node.origin.span;
+    if (sources && span.known()) out += fmt::format(", {}:{}", sources->name(span.file), span.line);
+    out += '\n';
   }
-  for (const Register& output : outputs) out += fmt::format("output {}\n", text_of(output));
+  out += ports_text("output", outputs, request ? &request->outputs : nullptr, scene);
   return out;
 }
 
