@@ -4,6 +4,7 @@
 // cycle. Components are plugs of their own, so translate.x may depend on translate.y.
 // Test: tests/eval/compile_test.cpp
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <unordered_map>
 
@@ -14,7 +15,9 @@
 #include "eval/limits.h"
 #include "eval/program.h"
 #include "eval/rules.h"
+#include "eval/schedule.h"
 #include "eval/values.h"
+#include "eval/worlds.h"
 
 namespace rigc::eval {
 
@@ -84,31 +87,36 @@ class Compiler {
       : scene_(scene),
         diagnostics_(diagnostics),
         before_(diagnostics.errors()),
-        limits_(scene, diagnostics) {}
+        limits_(scene, diagnostics),
+        worlds_(scene.size()) {}
 
   std::optional<Program> compile(const Request& request) {
     for (const Plug& plug : request.inputs) {
       if (check_input(plug)) add_input(plug);
     }
+    sort_inputs();
     std::vector<Operand> outputs;
     for (const Plug& plug : request.outputs) {
-      if (!check_output(plug)) continue;
-      resolve({plug});
-      outputs.push_back(known_.at({plug}).operand);
+      if (check_output(plug)) outputs.push_back(resolve({plug}));
     }
     if (diagnostics_.errors() != before_) return std::nullopt;
-    return emitter_.finish(inputs_, outputs);
+    return schedule(emitter_, inputs_, outputs);
   }
 
  private:
   struct Known {
+    bool there = false;
     bool open = true;
     Operand operand;
   };
   struct Frame {
     Key key;
     Plan plan;
-    std::size_t next = 0;
+    std::vector<Operand> operands;  // of what it needs, as far as that is known
+  };
+  struct Varying {
+    Plug plug;
+    Operand operand;
   };
 
   // Requests.
@@ -138,42 +146,92 @@ class Compiler {
   void add_input(const Plug& plug) {
     const Operand operand = emitter_.input(numbers_of(scene_.value(plug)));
     inputs_.push_back(operand);
-    varying_.emplace(Key{plug}, operand);
+    varying_.push_back({plug, operand});
+  }
+
+  void sort_inputs() {
+    std::ranges::stable_sort(varying_, {}, &Varying::plug);
+    first_varying_.assign(scene_.size() + 1, 0);
+    for (const Varying& v : varying_) ++first_varying_[v.plug.node.index + 1];
+    for (std::size_t i = 1; i < first_varying_.size(); ++i)
+      first_varying_[i] += first_varying_[i - 1];
   }
 
   const Operand* input_at(const Plug& plug) const {
-    const auto found = varying_.find({plug});
-    return found == varying_.end() ? nullptr : &found->second;
+    const std::uint32_t node = plug.node.index;
+    for (std::uint32_t i = first_varying_[node]; i < first_varying_[node + 1]; ++i) {
+      if (varying_[i].plug == plug) return &varying_[i].operand;
+    }
+    return nullptr;
   }
 
   // The walk.
 
-  void resolve(const Key& wanted) {
-    if (known_.contains(wanted)) return;
-    open(wanted);
+  // Worlds, the most of what is known, lie in the order of nodes.
+  bool is_world(const Key& key) const {
+    return key.plug.attribute == transform::kWorld && key.layer == Layer::limited &&
+           is_transform(key.plug.node) && key.plug.element < 0 && key.plug.component < 0;
+  }
+
+  Known& known(const Key& key) {
+    return is_world(key) ? worlds_[key.plug.node.index] : known_[key];
+  }
+
+  const Known* find(const Key& key) const {
+    if (is_world(key)) {
+      const Known& world = worlds_[key.plug.node.index];
+      return world.there ? &world : nullptr;
+    }
+    const auto found = known_.find(key);
+    return found == known_.end() ? nullptr : &found->second;
+  }
+
+  // What takes no instruction is not remembered.
+  static bool at_hand(const Plan& plan) {
+    return plan.step == Step::constant || plan.step == Step::input;
+  }
+
+  Operand resolve(const Key& wanted) {
+    Operand result = nothing_;
+    if (!take(wanted, result)) {
+      run();
+      take(wanted, result);
+    }
+    return result;
+  }
+
+  // Whether it is known already or needs no walk; else it is opened.
+  bool take(const Key& key, Operand& result) {
+    if (const Known* found = find(key)) {
+      if (found->open) report_ring(key);
+      result = found->operand;
+      return true;
+    }
+    Plan plan = this->plan(key);
+    if (at_hand(plan)) {
+      result = build(key, plan, {});
+      return true;
+    }
+    // What a member of a cycle is worth does not matter: the program is not handed out.
+    known(key) = {true, true, slice(nothing_, 0, width_of(key))};
+    stack_.push_back({key, std::move(plan), {}});
+    return false;
+  }
+
+  void run() {
     while (!stack_.empty()) {
-      Frame& frame = stack_.back();
-      if (frame.next == frame.plan.needs.size()) {
-        Known& known = known_.at(frame.key);
-        known.operand = build(frame.key, frame.plan);
-        known.open = false;
+      const std::size_t top = stack_.size() - 1;
+      const std::size_t next = stack_[top].operands.size();
+      if (next == stack_[top].plan.needs.size()) {
+        const Frame frame = std::move(stack_.back());
+        const Operand operand = build(frame.key, frame.plan, frame.operands);
+        known(frame.key) = {true, false, operand};
         stack_.pop_back();
         continue;
       }
-      const Key need = frame.plan.needs[frame.next++];
-      const auto found = known_.find(need);
-      if (found == known_.end()) {
-        open(need);
-      } else if (found->second.open) {
-        report_ring(need);
-      }
+      Operand operand;
+      if (take(stack_[top].plan.needs[next], operand)) stack_[top].operands.push_back(operand);
     }
-  }
-
-  void open(const Key& key) {
-    // What a member of a cycle is worth does not matter: the program is not handed out.
-    known_.emplace(key, Known{true, emitter_.constant(std::vector<double>(width_of(key), 0.0))});
-    stack_.push_back({key, plan(key), 0});
   }
 
   void report_ring(const Key& start) {
@@ -316,10 +374,8 @@ class Compiler {
 
   // Building.
 
-  Operand build(const Key& key, const Plan& plan) {
+  Operand build(const Key& key, const Plan& plan, const std::vector<Operand>& operands) {
     const std::uint32_t node = key.plug.node.index;
-    std::vector<Operand> operands;
-    for (const Key& need : plan.needs) operands.push_back(known_.at(need).operand);
     switch (plan.step) {
       case Step::constant:
         return emitter_.constant(constant_of(key.plug));
@@ -351,7 +407,7 @@ class Compiler {
     if (diagnostics_.errors() == before_) {
       refuse(key.plug, fmt::format("it has no {}", scene_.plug_name(key.plug)));
     }
-    return emitter_.constant(std::vector<double>(plan.width, 0.0));
+    return slice(nothing_, 0, plan.width);
   }
 
   // Outputs have no value in the scene: the one that is constant is the parent of a root.
@@ -370,16 +426,15 @@ class Compiler {
   }
 
   Operand build_world(const std::vector<Operand>& operands, std::uint32_t node) {
-    const Operand local =
-        emitter_.emit(Op::compose, {operands[0], operands[1], operands[2]}, {}, 12, node);
-    if (operands.size() == 3) return local;
-    return emitter_.emit(Op::multiply, {operands[3], local}, {}, 12, node);
+    Placement placement{{}, operands[0], operands[1], operands[2]};
+    if (operands.size() > 3) placement.parent = operands[3];
+    return emit_world(emitter_, placement, node);
   }
 
   Operand build_block(NodeId node, const std::vector<Operand>& operands) {
     const auto emitted =
         rule(scene_[node].kind).emit(emitter_, scene_, node, operands, diagnostics_);
-    return emitted ? *emitted : emitter_.constant({});
+    return emitted ? *emitted : slice(nothing_, 0, 0);
   }
 
   const scene::Scene& scene_;
@@ -387,8 +442,11 @@ class Compiler {
   std::size_t before_;
   Limits limits_;
   Emitter emitter_;
+  Operand nothing_ = emitter_.constant(std::array<double, 12>{});  // of what is wrong
   std::vector<Operand> inputs_;
-  std::unordered_map<Key, Operand, KeyHash> varying_;
+  std::vector<Varying> varying_;              // inputs, in the order of their plugs
+  std::vector<std::uint32_t> first_varying_;  // by node
+  std::vector<Known> worlds_;                 // by node: world of a transform
   std::unordered_map<Key, Known, KeyHash> known_;
   std::vector<Frame> stack_;
 };

@@ -1,135 +1,213 @@
 // SPDX-License-Identifier: MIT
-// Emitting, folding and the giving out of rows. Test: tests/eval/compile_test.cpp
+// Emitting, folding, and finding what is there already. Test: tests/eval/emitter_test.cpp
 #include "eval/emitter.h"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
-#include <map>
 #include <utility>
+
+#include "eval/similarity.h"
 
 namespace rigc::eval {
 
 namespace {
 
-constexpr std::uint32_t kNoRow = UINT32_MAX;
+constexpr std::uint32_t kNone = UINT32_MAX;
+
+std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
+  hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
+  return hash ^ (hash >> 32);
+}
 
 // Bits, so that 0 and -0 stay apart.
-std::vector<std::uint64_t> bits_of(const std::vector<double>& numbers) {
-  std::vector<std::uint64_t> bits;
-  bits.reserve(numbers.size());
-  for (const double n : numbers) bits.push_back(std::bit_cast<std::uint64_t>(n));
-  return bits;
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
+
+math::Affine matrix_of(std::span<const double> n) {
+  return {{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}}, {n[9], n[10], n[11]}};
+}
+
+math::Mat3 linear_of(std::span<const double> n) {
+  return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}};
+}
+
+double even_scale(std::span<const double> xyz) {
+  return xyz[0] > 0 && xyz[0] == xyz[1] && xyz[1] == xyz[2] ? xyz[0] : 0;
+}
+
+// Beyond these, products of a few scales may overflow or vanish.
+constexpr double kLeastScale = 1e-30, kMostScale = 1e30;
+// The data of what computes its own axes: where they lie in it is in kernels/table.h.
+constexpr std::size_t kAimWorldLinear = 2;
 
 }  // namespace
 
-// Rows of values; equal constants share theirs.
-class Emitter::Rows {
- public:
-  Rows(const std::vector<Value>& values, Program& program)
-      : values_(values), program_(program), rows_(values.size(), kNoRow) {}
-
-  Register of(const Operand& operand) {
-    std::uint32_t& row = rows_[operand.value];
-    if (row == kNoRow) row = place(values_[operand.value]);
-    return {row + operand.offset, operand.width};
-  }
-
- private:
-  std::uint32_t place(const Value& value) {
-    if (value.source == Source::constant) {
-      const auto found = constants_.try_emplace(bits_of(value.numbers), program_.rows);
-      if (!found.second) return found.first->second;
-    }
-    const std::uint32_t row = program_.rows;
-    program_.rows += value.width;
-    for (std::size_t i = 0; i < value.numbers.size(); ++i) {
-      program_.constants.push_back({row + static_cast<std::uint32_t>(i), value.numbers[i]});
-    }
-    return row;
-  }
-
-  const std::vector<Value>& values_;
-  Program& program_;
-  std::vector<std::uint32_t> rows_;  // by value
-  std::map<std::vector<std::uint64_t>, std::uint32_t> constants_;
-};
-
-Operand Emitter::constant(std::vector<double> numbers) {
-  const auto width = static_cast<std::uint32_t>(numbers.size());
-  values_.push_back({Source::constant, width, std::move(numbers)});
-  return {static_cast<std::uint32_t>(values_.size() - 1), 0, width};
+std::uint32_t Emitter::hash_of(const Definition& d) const {
+  std::uint64_t hash =
+      mixed(static_cast<std::uint64_t>(d.source) * 256 + static_cast<std::uint64_t>(d.op), d.width);
+  for (const Operand& a : arguments(d))
+    hash = mixed(mixed(hash, a.value), (std::uint64_t{a.offset} << 32) + a.width);
+  for (const double n : data(d)) hash = mixed(hash, std::bit_cast<std::uint64_t>(n));
+  return static_cast<std::uint32_t>(hash);
 }
 
-Operand Emitter::input(std::vector<double> initial) {
-  const auto width = static_cast<std::uint32_t>(initial.size());
-  values_.push_back({Source::input, width, std::move(initial)});
-  return {static_cast<std::uint32_t>(values_.size() - 1), 0, width};
+bool Emitter::same(const Definition& a, const Definition& b) const {
+  return a.source == b.source && a.op == b.op && a.width == b.width &&
+         std::ranges::equal(arguments(a), arguments(b)) &&
+         std::ranges::equal(data(a), data(b), same_bits);
 }
 
-bool Emitter::all_constant(const std::vector<Operand>& operands) const {
-  for (const Operand& operand : operands) {
-    if (values_[operand.value].source != Source::constant) return false;
+void Emitter::grow() {
+  std::vector<Slot> larger(index_.size() * 2);
+  const std::size_t mask = larger.size() - 1;
+  for (const Slot& slot : index_) {
+    if (slot.value == kNone) continue;
+    std::size_t at = slot.hash & mask;
+    while (larger[at].value != kNone) at = (at + 1) & mask;
+    larger[at] = slot;
   }
-  return true;
+  index_ = std::move(larger);
 }
 
-std::vector<double> Emitter::fold(Op op, const std::vector<Operand>& arguments,
-                                  const std::vector<double>& data, std::uint32_t width) const {
+std::span<const Operand> Emitter::arguments(const Definition& d) const {
+  return std::span(arguments_).subspan(d.first_argument, d.argument_count);
+}
+
+std::span<const double> Emitter::data(const Definition& d) const {
+  return std::span(data_).subspan(d.data, d.data_count);
+}
+
+std::span<const double> Emitter::numbers(const Operand& constant) const {
+  assert(is_constant(constant));
+  return data(definition(constant)).subspan(constant.offset, constant.width);
+}
+
+math::Affine Emitter::matrix(const Operand& constant) const { return matrix_of(numbers(constant)); }
+
+std::uint32_t Emitter::unify() {
+  const auto newest = static_cast<std::uint32_t>(values_.size() - 1);
+  const Definition& d = values_.back();
+  const std::uint32_t hash = hash_of(d);
+  if (2 * (indexed_ + 1) > index_.size()) grow();
+  const std::size_t mask = index_.size() - 1;
+  std::size_t at = hash & mask;
+  for (; index_[at].value != kNone; at = (at + 1) & mask) {
+    if (index_[at].hash != hash || !same(values_[index_[at].value], d)) continue;
+    arguments_.resize(d.first_argument);
+    data_.resize(d.data);
+    values_.pop_back();
+    return index_[at].value;
+  }
+  index_[at] = {hash, newest};
+  ++indexed_;
+  return newest;
+}
+
+Operand Emitter::constant(std::span<const double> numbers) {
+  Definition d;
+  d.width = d.data_count = static_cast<std::uint32_t>(numbers.size());
+  d.first_argument = static_cast<std::uint32_t>(arguments_.size());
+  d.data = static_cast<std::uint32_t>(data_.size());
+  data_.insert(data_.end(), numbers.begin(), numbers.end());
+  values_.push_back(d);
+  return whole(unify());
+}
+
+Operand Emitter::constant_matrix(const math::Affine& a) {
+  const math::Mat3& m = a.linear;
+  return constant({m.x.x, m.x.y, m.x.z, m.y.x, m.y.y, m.y.z, m.z.x, m.z.y, m.z.z, a.origin.x,
+                   a.origin.y, a.origin.z});
+}
+
+Operand Emitter::input(std::span<const double> initial) {
+  Definition d;
+  d.source = Source::input;
+  d.width = d.data_count = static_cast<std::uint32_t>(initial.size());
+  d.first_argument = static_cast<std::uint32_t>(arguments_.size());
+  d.data = static_cast<std::uint32_t>(data_.size());
+  data_.insert(data_.end(), initial.begin(), initial.end());
+  values_.push_back(d);
+  return whole(static_cast<std::uint32_t>(values_.size() - 1));
+}
+
+Operand Emitter::fold(Op op, std::span<const Operand> arguments, std::span<const double> table,
+                      std::uint32_t width) {
   std::vector<Register> places;
-  std::vector<double> registers;
+  registers_.clear();
   for (const Operand& operand : arguments) {
-    places.push_back({static_cast<std::uint32_t>(registers.size() / kLanes), operand.width});
-    for (std::uint32_t i = 0; i < operand.width; ++i) {
-      const double number = values_[operand.value].numbers[operand.offset + i];
-      registers.insert(registers.end(), kLanes, number);
-    }
+    places.push_back({static_cast<std::uint32_t>(registers_.size() / kLanes), operand.width});
+    for (const double number : numbers(operand))
+      registers_.insert(registers_.end(), kLanes, number);
   }
-  const Register out{static_cast<std::uint32_t>(registers.size() / kLanes), width};
-  registers.resize(registers.size() + static_cast<std::size_t>(width) * kLanes);
-  row(op).kernel({registers.data(), out, places.data(), static_cast<std::uint32_t>(places.size()),
-                  data.data()});
-  std::vector<double> numbers;
-  for (std::uint32_t i = 0; i < width; ++i) {
-    numbers.push_back(registers[static_cast<std::size_t>(out.row + i) * kLanes]);
-  }
-  return numbers;
+  const Register out{static_cast<std::uint32_t>(registers_.size() / kLanes), width};
+  registers_.resize(registers_.size() + static_cast<std::size_t>(width) * kLanes);
+  row(op).kernel({registers_.data(), out, places.data(), static_cast<std::uint32_t>(places.size()),
+                  table.data()});
+  std::vector<double> results;
+  for (std::uint32_t i = 0; i < width; ++i)
+    results.push_back(registers_[static_cast<std::size_t>(out.row + i) * kLanes]);
+  return constant(results);
 }
 
-Operand Emitter::emit(Op op, const std::vector<Operand>& arguments, const std::vector<double>& data,
+Operand Emitter::emit(Op op, std::span<const Operand> arguments, std::span<const double> table,
                       std::uint32_t width, std::uint32_t node) {
   assert(row(op).arguments < 0 || row(op).arguments == static_cast<int>(arguments.size()));
-  if (all_constant(arguments)) return constant(fold(op, arguments, data, width));
-  values_.push_back({Source::computed, width, {}});
-  const auto value = static_cast<std::uint32_t>(values_.size() - 1);
-  pending_.push_back({op, value, arguments_.size(), static_cast<std::uint32_t>(arguments.size()),
-                      data_.size(), node});
+  if (std::ranges::all_of(arguments, [&](const Operand& a) { return is_constant(a); }))
+    return fold(op, arguments, table, width);
+  Definition d;
+  d.source = Source::computed;
+  d.op = op;
+  d.width = width;
+  d.first_argument = static_cast<std::uint32_t>(arguments_.size());
+  d.argument_count = static_cast<std::uint32_t>(arguments.size());
+  d.data = static_cast<std::uint32_t>(data_.size());
+  d.data_count = static_cast<std::uint32_t>(table.size());
+  d.node = node;
   arguments_.insert(arguments_.end(), arguments.begin(), arguments.end());
-  data_.insert(data_.end(), data.begin(), data.end());
-  return {value, 0, width};
+  data_.insert(data_.end(), table.begin(), table.end());
+  values_.push_back(d);
+  const double scale = scale_of_newest();
+  values_.back().scale = scale >= kLeastScale && scale <= kMostScale ? scale : 0;
+  return whole(unify());
 }
 
-Program Emitter::finish(const std::vector<Operand>& inputs,
-                        const std::vector<Operand>& outputs) const {
-  Program program;
-  Rows rows(values_, program);
-  for (const Operand& input : inputs) program.inputs.push_back(rows.of(input));
-  for (const Pending& p : pending_) {
-    Instruction instruction;
-    instruction.op = p.op;
-    instruction.first_argument = static_cast<std::uint32_t>(program.arguments.size());
-    instruction.argument_count = p.argument_count;
-    instruction.data = static_cast<std::uint32_t>(p.data);
-    instruction.node = p.node;
-    for (std::uint32_t i = 0; i < p.argument_count; ++i) {
-      program.arguments.push_back(rows.of(arguments_[p.first_argument + i]));
-    }
-    instruction.out = rows.of({p.value, 0, values_[p.value].width});
-    program.instructions.push_back(instruction);
+double Emitter::scale_of_newest() const {
+  const Definition& d = values_.back();
+  const std::span<const Operand> a = arguments(d);
+  switch (d.op) {
+    case Op::compose_rigid:
+    case Op::compose_under:
+    case Op::blend:
+      return 1;
+    case Op::compose:
+      return is_constant(a[2]) ? even_scale(numbers(a[2])) : 0;
+    case Op::multiply:
+      return scale(a[0]) * scale(a[1]);
+    case Op::hang:
+      return scale(a[1]) * uniform_scale(linear_of(data(d)));
+    case Op::hang_straight:
+    case Op::place:
+      return scale(a[1]);
+    case Op::aim_world:
+      return uniform_scale(linear_of(data(d).subspan(kAimWorldLinear)));
+    default:
+      return 0;
   }
-  for (const Operand& output : outputs) program.outputs.push_back(rows.of(output));
-  program.data = data_;
-  return program;
+}
+
+double Emitter::scale(const Operand& operand) const {
+  if (operand.width != 12) return 0;
+  if (is_constant(operand)) return uniform_scale(matrix(operand).linear);
+  const Definition& d = definition(operand);
+  if (d.op != Op::ik_two_bone) return operand.offset == 0 && d.width == 12 ? d.scale : 0;
+  // The worlds of start and middle: scaled as base, start and, of the second, middle.
+  const std::span<const Operand> a = arguments(d);
+  double product = scale(a[0]);
+  for (std::size_t i = 0; i <= operand.offset / 12; ++i)
+    product *= is_constant(a[7 + i]) ? even_scale(numbers(a[7 + i])) : 0;
+  return product;
 }
 
 }  // namespace rigc::eval

@@ -31,6 +31,7 @@ struct Instruction {
   std::uint32_t first_argument = 0;  ///< into Program::arguments
   std::uint32_t argument_count = 0;
   std::uint32_t data = 0;  ///< into Program::data; its meaning is the kernel's
+  std::uint32_t data_count = 0;
   std::uint32_t node = 0;  ///< index of the scene node it came from
 };
 
@@ -49,8 +50,10 @@ class Program {
   std::vector<Register> inputs;     ///< one for each Request::inputs, same order
   std::vector<Register> outputs;    ///< one for each Request::outputs, same order
 
-  /// A readable listing, the same for the same scene.
-  std::string dump(const scene::Scene& scene) const;
+  /// A readable listing, the same for the same scene: each instruction with its node. With the
+  /// request also the plugs of inputs and outputs, with the sources the template line of each node.
+  std::string dump(const scene::Scene& scene, const Request* request = nullptr,
+                   const Sources* sources = nullptr) const;
 };
 
 /// Cycles are reported with every plug, command and template line in them.

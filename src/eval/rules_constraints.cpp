@@ -23,6 +23,20 @@ void add_targets(const scene::Scene& scene, scene::NodeId node, std::uint16_t ta
   }
 }
 
+// Which of the targets take part where all weights are constant; those without weight never do.
+std::vector<std::size_t> taking_part(const Emitter& emitter, const Operands& arguments,
+                                     std::size_t count) {
+  std::vector<std::size_t> all, weighted;
+  bool constant = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    all.push_back(i);
+    const Operand& weight = arguments[2 + 2 * i];
+    constant = constant && emitter.is_constant(weight);
+    if (constant && emitter.numbers(weight)[0] > 0) weighted.push_back(i);
+  }
+  return constant && !weighted.empty() ? weighted : all;
+}
+
 }  // namespace
 
 std::size_t element_count(const scene::Scene& scene, scene::NodeId node, std::uint16_t attribute) {
@@ -64,9 +78,19 @@ std::optional<Operand> constraint_emit(Emitter& emitter, const scene::Scene& sce
                     diagnostics);
   }
   const bool point = scene[node].kind == scene::Kind::point_constraint;
-  std::vector<double> data{static_cast<double>(count), point ? 1.0 : 0.0};
-  append(data, scene, node, constraint::kOffsets);
-  return emitter.emit(Op::constraint, arguments, data, 10, node.index);
+  std::vector<double> all_offsets;
+  append(all_offsets, scene, node, constraint::kOffsets);
+  const std::vector<std::size_t> targets = taking_part(emitter, arguments, count);
+  std::vector<double> data{static_cast<double>(targets.size()), point ? 1.0 : 0.0};
+  Operands used{arguments[0]};
+  for (const std::size_t i : targets) {
+    used.insert(used.end(), {arguments[1 + 2 * i], arguments[2 + 2 * i]});
+    const double* offset = all_offsets.data() + 12 * i;
+    data.insert(data.end(), offset, offset + 12);
+  }
+  // What weighs alone weighs all.
+  if (targets.size() == 1) used[2] = emitter.constant({1});
+  return emitter.emit(Op::constraint, used, data, 10, node.index);
 }
 
 OutputPlace constraint_place(const scene::Plug& output) {

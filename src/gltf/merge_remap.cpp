@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Walks a file and edits every index that merge_table.h knows. Test: tests/gltf/merge_table_test.cpp
+// Walks a file and edits every index that merge_table.h knows. Test:
+// tests/gltf/merge_table_test.cpp
 #include <fmt/format.h>
 
 #include <algorithm>

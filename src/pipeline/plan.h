@@ -16,4 +16,11 @@ enum class PlanForm { text, json, dot };
 std::optional<std::string> plan(const BuildRequest& request, PlanForm form,
                                 Diagnostics& diagnostics);
 
+/// The program that plays the rig of a template, built in memory, or each rig of a file, where the
+/// request names a .glb, .gltf or .vrm: everything that animators may key moves, the worlds of
+/// joints come out. Each instruction with its registers, its node and the template line of that
+/// node's command.
+std::optional<std::string> plan_program(const BuildRequest& request, PlanForm form,
+                                        Diagnostics& diagnostics);
+
 }  // namespace rigc::pipeline

@@ -168,6 +168,8 @@ TEST_CASE("cli: --json prints one JSON document and nothing else") {
        {std::vector<std::string>{"build", "lever.yaml", "-o", "lever.glb", "--json"},
         {"check", "lever.yaml", "--json"},
         {"plan", "lever.yaml", "--json"},
+        {"plan", "lever.yaml", "--program", "--json"},
+        {"plan", "lever.glb", "--program", "--json"},
         {"inspect", "lever.glb", "--json"},
         {"query", "lever.glb", "lever.base/control", "--json"},
         {"bake", "lever.glb", "-o", "baked.glb", "--json"},

@@ -172,10 +172,9 @@ TEST_CASE("eval compile: what depends on no input becomes a constant") {
   CHECK(program.instructions.empty());
   CHECK(program.rows <= 13);
   program = compile(b, {{{control, transform::kTranslate}}, {{control, transform::kWorld}}});
-  // The zero's world is folded; what is left is the control's own matrix times it.
-  REQUIRE(program.instructions.size() == 2);
-  CHECK(program.instructions[0].op == eval::Op::compose);
-  CHECK(program.instructions[1].op == eval::Op::multiply);
+  // The zero's world is folded, and so are the control's axes; its origin is left.
+  REQUIRE(program.instructions.size() == 1);
+  CHECK(program.instructions[0].op == eval::Op::place);
 }
 
 TEST_CASE("eval compile: folding gives the bits that running gives") {
@@ -202,6 +201,8 @@ TEST_CASE("eval compile: what nobody asks for is never emitted, what is asked fo
   SceneBuilder b;
   const NodeId a = b.transform("a"), child = b.transform("child", a),
                other = b.transform("other", a);
+  b.edit.set({other, transform::kTranslate}, Vec3{0, 1, 0});
+  b.edit.set({child, transform::kTranslate}, Vec3{0, 2, 0});
   const Plug input{a, transform::kTranslate};
   b.formula("$0 * 3", {{a, transform::kTranslate, -1, 0}});
   const auto one = compile(b, {{input}, {{child, transform::kWorld}}});

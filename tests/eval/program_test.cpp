@@ -26,19 +26,16 @@ TEST_CASE("eval program: the listing") {
       b.scene, {{{root, transform::kTranslate}}, {{child, transform::kWorld}, half}}, diagnostics);
   REQUIRE(program);
   CHECK(program->dump(b.scene) ==
-        "rows 48\n"
+        "rows 33\n"
         "input r0+3\n"
         "r0 = 0\nr1 = 0\nr2 = 0\n"
         "r3 = 0\nr4 = 0\nr5 = 0\nr6 = 1\n"
-        "r7 = 1\nr8 = 1\nr9 = 1\n"
-        "r22 = 1\nr23 = 0\nr24 = 0\nr25 = 0\nr26 = 1\nr27 = 0\nr28 = 0\nr29 = 0\nr30 = 1\nr31 = "
-        "0\nr32 = 2\nr33 = 0\n"
-        "r46 = 2\n"
-        "r10+12 = compose r0+3 r3+4 r7+3  # transform root\n"
-        "r34+12 = multiply r10+12 r22+12  # transform child\n"
-        "r47 = divide r1 r46  # expression expression\n"
-        "output r34+12\n"
-        "output r47\n");
+        "r7 = 2\n"
+        "r21+12 = compose_rigid r0+3 r3+4  # transform root\n"
+        "r8+12 = hang_straight r21+12 r21+12 [0 2 0]  # transform child\n"
+        "r20 = divide r1 r7  # expression expression\n"
+        "output r8+12\n"
+        "output r20\n");
 }
 
 // A rig with one of each: hierarchy, constraint, aim, IK, chain, formula, remap.

@@ -9,21 +9,22 @@
 namespace rigc::eval {
 namespace {
 
-/// parent, position, up_target, up_vector, (target, weight)...; data: count, mode, offset
-/// -> rotation
-struct Aim {
+/// The frame that aims, of the arguments parent, position, up_target, up_vector, (target,
+/// weight)... and data: count, mode.
+struct Aiming {
   enum Argument : std::size_t { kParent, kPosition, kUpTarget, kUpVector, kTargets };
 
-  RIGC_INLINE static void run(const Lanes& lanes) {
+  Affine parent;
+  Vec3 position;  ///< in rig space
+  Mat3 axes;      ///< x at the targets, y up
+
+  RIGC_INLINE explicit Aiming(const Lanes& lanes)
+      : parent(lanes.affine(kParent)), position(parent * lanes.vec3(kPosition)) {
     const double* d = lanes.data();
-    const Affine parent = lanes.affine(kParent);
-    const Vec3 position = parent * lanes.vec3(kPosition);
     const Vec3 target = mean_target(lanes, static_cast<std::size_t>(d[0]));
     const Vec3 toward =
         generic::normalised(target - position, generic::orthonormal(parent.linear).x);
-    const Mat3 axes = generic::frame(toward, up_direction(lanes, static_cast<int>(d[1]), position));
-    const Mat3 turned = axes * generic::matrix(quat_at(d + 2));
-    lanes.put(0, generic::quaternion(generic::orthonormal(into(parent).linear * turned)));
+    axes = generic::frame(toward, up_direction(lanes, static_cast<int>(d[1]), position));
   }
 
  private:
@@ -42,6 +43,26 @@ struct Aim {
     if (mode == 1) return lanes.origin(kUpTarget) - position;
     if (mode == 2) return generic::orthonormal(lanes.affine(kUpTarget).linear) * up;
     return up;
+  }
+};
+
+/// data: count, mode, offset (a rotation) -> rotation in the parent's space
+struct Aim {
+  RIGC_INLINE static void run(const Lanes& lanes) {
+    const Aiming aiming(lanes);
+    const Mat3 turned = aiming.axes * generic::matrix(quat_at(lanes.data() + 2));
+    lanes.put(0, generic::quaternion(generic::orthonormal(into(aiming.parent).linear * turned)));
+  }
+};
+
+/// data: count, mode, 9 numbers L -> linear: the frame times L, origin: parent * position. Where
+/// the parent is a rotation times a factor: no way into its space and back.
+struct AimWorld {
+  RIGC_INLINE static void run(const Lanes& lanes) {
+    const Aiming aiming(lanes);
+    const double* d = lanes.data() + 2;
+    const Mat3 own{vec3_at(d), vec3_at(d + 3), vec3_at(d + 6)};
+    lanes.put(0, Affine{aiming.axes * own, aiming.position});
   }
 };
 

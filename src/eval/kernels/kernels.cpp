@@ -2,6 +2,7 @@
 // The table of kernels, complete when compiled. This file is compiled once for each instruction set
 // (cmake/kernels.cmake), with RIGC_ISA as its name. Test: tests/eval/isa_test.cpp
 #include "eval/kernels/aim.h"
+#include "eval/kernels/blend.h"
 #include "eval/kernels/chain.h"
 #include "eval/kernels/constraint.h"
 #include "eval/kernels/limit.h"
@@ -25,12 +26,19 @@ constexpr Kernel ternary = all_lanes<Ternary<F>>;
 
 constexpr KernelRow kRows[] = {
     {Op::compose, "compose", all_lanes<Compose>, 3},
+    {Op::compose_rigid, "compose_rigid", all_lanes<ComposeRigid>, 2},
+    {Op::compose_under, "compose_under", all_lanes<ComposeUnder>, 2},
     {Op::multiply, "multiply", all_lanes<Multiply>, 2},
+    {Op::hang, "hang", all_lanes<Hang>, 2},
+    {Op::hang_straight, "hang_straight", all_lanes<HangStraight>, 2},
+    {Op::place, "place", all_lanes<Place>, 3},
     {Op::gather, "gather", all_lanes<Gather>, kAny},
     {Op::from_euler, "from_euler", all_lanes<FromEuler>, 1},
     {Op::to_euler, "to_euler", all_lanes<ToEuler>, 1},
     {Op::constraint, "constraint", all_lanes<Constraint>, kAny},
     {Op::aim, "aim", all_lanes<Aim>, kAny},
+    {Op::blend, "blend", all_lanes<Blend>, kAny},
+    {Op::aim_world, "aim_world", all_lanes<AimWorld>, kAny},
     {Op::ik_two_bone, "ik_two_bone", all_lanes<TwoBone>, 9},
     {Op::ik_chain, "ik_chain", all_lanes<Chain>, kAny},
     {Op::limit_vector, "limit_vector", all_lanes<LimitVector>, 1},

@@ -13,16 +13,26 @@ namespace rigc::eval {
 
 enum class Op : std::uint8_t {
   // Transforms.
-  compose,     ///< translation, rotation, scale -> T * R * S
-  multiply,    ///< a, b -> a * b
-  gather,      ///< any registers, one after the other
-  from_euler,  ///< degrees -> rotation
-  to_euler,    ///< rotation -> degrees
+  compose,        ///< translation, rotation, scale -> T * R * S
+  compose_rigid,  ///< translation, rotation -> T * R
+  compose_under,  ///< translation, rotation; data: t, unit q -> translation(t) * rotation(q) * T *
+                  ///< R
+  multiply,       ///< a, b -> a * b
+  hang,           ///< parent, turned; data: 9 numbers L, t -> linear turned * L, origin parent * t
+  hang_straight,  ///< parent, turned; data: t -> linear of turned, origin parent * t
+  place,          ///< parent, turned, t -> linear of turned, origin parent * t
+  gather,         ///< any registers, one after the other
+  from_euler,     ///< degrees -> rotation
+  to_euler,       ///< rotation -> degrees
   // Solvers; scene/kinds.h says what they mean.
   constraint,  ///< parent, (target, weight)...; data: count, whether it is a point constraint,
                ///< offsets -> translate, rotation, scale
   aim,  ///< parent, position, up_target, up_vector, (target, weight)...; data: count, mode, offset
         ///< -> rotation
+  blend,      ///< (target, weight)...; data: count, of each target 9 numbers L that make target * L
+              ///< a rotation, t -> the mean of the rotations and of target * t, as a matrix
+  aim_world,  ///< as aim; data: count, mode, 9 numbers L -> linear: the aim frame times L, origin:
+              ///< parent * position
   ik_two_bone,  ///< base ... middle_scale; data: goal offset, rotation offsets, normal -> two
                 ///< worlds
   ik_chain,     ///< base, goal, pole, twist, translates...; data: count, has_pole, iterations, goal

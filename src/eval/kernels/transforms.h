@@ -16,10 +16,51 @@ struct Compose {
   }
 };
 
+/// translation, rotation (of any length) -> T * R; the bits of Compose with scale 1
+struct ComposeRigid {
+  RIGC_INLINE static void run(const Lanes& lanes) {
+    lanes.put(0, Affine{generic::matrix(lanes.quat(1)), lanes.vec3(0)});
+  }
+};
+
+/// translation, rotation; data: t, unit q -> translation(t) * rotation(q) * T * R
+struct ComposeUnder {
+  RIGC_INLINE static void run(const Lanes& lanes) {
+    const Quat above = quat_at(lanes.data() + 3);
+    lanes.put(0, Affine{generic::matrix(above * generic::normalised(lanes.quat(1))),
+                        rotate(above, lanes.vec3(0)) + vec3_at(lanes.data())});
+  }
+};
+
 /// a, b -> a * b
 struct Multiply {
   RIGC_INLINE static void run(const Lanes& lanes) {
     lanes.put(0, lanes.affine(0) * lanes.affine(1));
+  }
+};
+
+// Worlds of joints whose rests are constants: `turned` is a matrix that has the joint's rotation,
+// `parent` the one whose space its place is in.
+
+/// parent, turned; data: 9 numbers L, t -> linear of turned * L, origin parent * t
+struct Hang {
+  RIGC_INLINE static void run(const Lanes& lanes) {
+    const Affine own = affine_at(lanes.data());
+    lanes.put(0, Affine{lanes.affine(1).linear * own.linear, lanes.affine(0) * own.origin});
+  }
+};
+
+/// parent, turned; data: t -> linear of turned, origin parent * t
+struct HangStraight {
+  RIGC_INLINE static void run(const Lanes& lanes) {
+    lanes.put(0, Affine{lanes.affine(1).linear, lanes.affine(0) * vec3_at(lanes.data())});
+  }
+};
+
+/// parent, turned, t -> linear of turned, origin parent * t
+struct Place {
+  RIGC_INLINE static void run(const Lanes& lanes) {
+    lanes.put(0, Affine{lanes.affine(1).linear, lanes.affine(0) * lanes.vec3(2)});
   }
 };
 
