@@ -141,4 +141,43 @@ std::vector<Body> find_bodies(const scene::Scene& scene, const std::vector<int>&
   return Finder(scene, nodes, animated, options).find();
 }
 
+std::vector<Reach> reaches(const scene::Scene& scene, const std::vector<Body>& bodies) {
+  std::vector<Reach> out(bodies.size());
+  std::vector<math::Affine> rests;
+  for (const Body& body : bodies) rests.push_back(scene.rest_world(body.id));
+  for (std::size_t i = bodies.size(); i-- > 0;) {  // those below come first
+    if (bodies[i].base < 0) continue;
+    const auto base = static_cast<std::size_t>(bodies[i].base);
+    const double length = math::length(rests[i].origin - rests[base].origin);
+    out[i].scale = std::max(math::length(rests[base].linear.x), 1e-12);
+    out[i].limb = std::max(out[i].limb, length);  // of a leaf: as long as the bone before it
+    out[base].limb = std::max(out[base].limb, length);
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (int above = bodies[i].base; above >= 0;
+         above = bodies[static_cast<std::size_t>(above)].base) {
+      const auto at = static_cast<std::size_t>(above);
+      out[at].subtree = std::max(out[at].subtree, math::length(rests[i].origin - rests[at].origin));
+    }
+  for (Reach& reach : out) reach.subtree = std::max(reach.subtree, reach.limb);
+  return out;
+}
+
+math::Affine world_of(const Body& body, const math::Trs& local, const math::Affine* base) {
+  const math::Affine matrix = math::compose(local);
+  if (body.between == math::Affine{}) return base ? *base * matrix : matrix;
+  return base ? *base * body.between * matrix : body.between * matrix;
+}
+
+double distance(const math::Affine& a, const math::Affine& b, double limb) {
+  double largest = math::length(a.origin - b.origin);
+  for (const auto axis : {&math::Mat3::x, &math::Mat3::y, &math::Mat3::z}) {
+    const double length = math::length(b.linear.*axis);
+    if (length < 1e-30) continue;
+    const math::Vec3 off = (a.linear.*axis - b.linear.*axis) * (limb / length);
+    largest = std::max(largest, math::length(a.origin - b.origin + off));
+  }
+  return largest;
+}
+
 }  // namespace rigc::bake

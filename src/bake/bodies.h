@@ -30,4 +30,19 @@ struct Body {
 std::vector<Body> find_bodies(const scene::Scene& scene, const std::vector<int>& nodes,
                               const std::vector<bool>& animated, const Options& options);
 
+/// How far a body's own change is felt: lengths in rig units at rest.
+struct Reach {
+  double limb = 0;  ///< to the farthest base-child, or as long as its own bone: where its rotation
+                    ///< is measured
+  double subtree = 0;  ///< to the farthest body below it
+  double scale = 1;    ///< of its parent: a unit of its translation in rig units
+};
+std::vector<Reach> reaches(const scene::Scene& scene, const std::vector<Body>& bodies);
+
+/// World of a body from its local transform and the world of its base (null: the rig's space).
+math::Affine world_of(const Body& body, const math::Trs& local, const math::Affine* base);
+
+/// How far apart two worlds of a body are: its origin, and points on its axes, `limb` away.
+double distance(const math::Affine& a, const math::Affine& b, double limb);
+
 }  // namespace rigc::bake

@@ -162,8 +162,7 @@ struct Standing {
   math::Affine between;  ///< from the base (or the rig's space) to the node's parent in the file
   math::Trs local;       ///< of the node in the file
 };
-/// By scene node; meaningful where the rig has a glTF node.
-std::optional<std::vector<Standing>> standings(const File& file, const Rig& rig,
-                                               Diagnostics& diagnostics);
+/// By scene node; meaningful where the rig has a glTF node. `slim`: of the file.
+std::vector<Standing> standings(const Slim& slim, const Rig& rig);
 
 }  // namespace rigc::gltf

@@ -4,16 +4,13 @@
 #include "pipeline/status.h"
 
 #include <algorithm>
-#include <atomic>
-#include <thread>
 
+#include "base/threads.h"
 #include "pipeline/batch_inputs.h"
 #include "templates/library.h"
 
 namespace rigc::pipeline {
 namespace {
-
-constexpr std::size_t kMostJobs = 64;
 
 void read_file_status(const Installed& installed, FileStatus& out, Diagnostics& diagnostics) {
   auto rigs = gltf::read_rig_summaries(out.file, diagnostics);
@@ -23,11 +20,6 @@ void read_file_status(const Installed& installed, FileStatus& out, Diagnostics& 
     Assessment assessment = installed.assess(rig.templates, rig.modules);
     out.rigs.push_back({std::move(rig), std::move(assessment)});
   }
-}
-
-std::size_t job_count(std::size_t wanted, std::size_t files) {
-  const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
-  return std::min({wanted == 0 ? processors : wanted, kMostJobs, files});
 }
 
 }  // namespace
@@ -44,15 +36,9 @@ std::optional<std::vector<FileStatus>> status(const StatusRequest& request,
   std::vector<FileStatus> files;
   for (BatchInput& input : *inputs) files.push_back({std::move(input.path), false, {}});
   std::vector<Diagnostics> reported(files.size());
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < files.size(); i = next++)
-      read_file_status(installed, files[i], reported[i]);
-  };
-  std::vector<std::thread> others;
-  for (std::size_t i = 1; i < job_count(request.jobs, files.size()); ++i) others.emplace_back(work);
-  work();
-  for (std::thread& other : others) other.join();
+  Threads threads(static_cast<unsigned>(request.jobs));
+  threads.for_each(files.size(),
+                   [&](std::size_t i) { read_file_status(installed, files[i], reported[i]); });
   for (const Diagnostics& one : reported)
     for (const Diagnostic& found : one.all())
       diagnostics.report(*found.code, found.place, found.message, found.hint);
