@@ -141,6 +141,20 @@ std::vector<Body> find_bodies(const scene::Scene& scene, const std::vector<int>&
   return Finder(scene, nodes, animated, options).find();
 }
 
+namespace {
+
+/// Of a body without any before or after it in the file: as long as its bone in the scene, or as
+/// the way from the origin; of what is there, a unit.
+double length_alone(const scene::Scene& scene, NodeId id) {
+  const math::Vec3 origin = scene.rest_world(id).origin;
+  const NodeId parent = scene[id].parent;
+  const double bone = parent.valid() ? math::length(origin - scene.rest_world(parent).origin) : 0.0;
+  const double way = math::length(origin);
+  return bone > 0 ? bone : way > 0 ? way : 1.0;
+}
+
+}  // namespace
+
 std::vector<Reach> reaches(const scene::Scene& scene, const std::vector<Body>& bodies) {
   std::vector<Reach> out(bodies.size());
   std::vector<math::Affine> rests;
@@ -159,7 +173,10 @@ std::vector<Reach> reaches(const scene::Scene& scene, const std::vector<Body>& b
       const auto at = static_cast<std::size_t>(above);
       out[at].subtree = std::max(out[at].subtree, math::length(rests[i].origin - rests[at].origin));
     }
-  for (Reach& reach : out) reach.subtree = std::max(reach.subtree, reach.limb);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (out[i].limb == 0) out[i].limb = length_alone(scene, bodies[i].id);
+    out[i].subtree = std::max(out[i].subtree, out[i].limb);
+  }
   return out;
 }
 

@@ -32,8 +32,8 @@ std::vector<Body> find_bodies(const scene::Scene& scene, const std::vector<int>&
 
 /// How far a body's own change is felt: lengths in rig units at rest.
 struct Reach {
-  double limb = 0;  ///< to the farthest base-child, or as long as its own bone: where its rotation
-                    ///< is measured
+  double limb = 0;  ///< to the farthest base-child, or as long as its own bone, never 0: where its
+                    ///< rotation is measured
   double subtree = 0;  ///< to the farthest body below it
   double scale = 1;    ///< of its parent: a unit of its translation in rig units
 };
