@@ -74,7 +74,8 @@ std::optional<anim::Clip> bake(const scene::Scene& scene, const std::vector<int>
   if (!times) return std::nullopt;
   Threads alone(1);
   Threads& threads = options.threads ? *options.threads : alone;
-  const auto evaluator = Evaluator::make(scene, bodies, inputs, diagnostics);
+  const std::vector<Reach> reach = reaches(scene, nodes, bodies, options);
+  const auto evaluator = Evaluator::make(scene, bodies, inputs, reach, diagnostics);
   if (!evaluator) return std::nullopt;
   const bool inserts = options.fps == 0 && options.tolerance > 0;
   const double tolerance = inserts ? options.tolerance / 2 : options.tolerance;
@@ -91,7 +92,7 @@ std::optional<anim::Clip> bake(const scene::Scene& scene, const std::vector<int>
   if (tolerance > 0)
     report.reduction_error =
         std::max(report.reduction_error,
-                 reduce(scene, bodies, *motion, key_times, tolerance, threads, tracks));
+                 reduce(bodies, reach, *motion, key_times, tolerance, threads, tracks));
   for (const Body& body : bodies)
     if (body.is_output) report.driven.push_back(nodes[body.id.index]);
 

@@ -18,6 +18,9 @@ struct Standing {
   scene::NodeId base;    ///< nearest node of the rig above it in the file; invalid: the rig's space
   math::Affine between;  ///< from the base (or the rig's space) to the node's parent in the file
   math::Trs local;       ///< of the node in the file: what plays where it has no channel
+  /// Where nodes of the file below it stand that are not the rig's, in its space: they move with
+  /// it, and key reduction must not move them too far either.
+  std::vector<math::Vec3> points = {};
 };
 
 struct Options {

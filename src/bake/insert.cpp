@@ -59,7 +59,7 @@ class Comparison {
           bodies_[b].is_output ? between(moves[begin], moves[end], t) : moves[frame];
       played[b] =
           world_of(bodies_[b], local, base < 0 ? nullptr : &played[static_cast<std::size_t>(base)]);
-      error = std::max(error, distance(played[b], wanted[b], reaches_[b].limb));
+      error = std::max(error, distance(played[b], wanted[b], reaches_[b]));
     }
     return error;
   }

@@ -26,17 +26,6 @@ bool fits(const math::Vec3& v) {
 
 bool fits(const math::Quat& q) { return std::isfinite(q.x + q.y + q.z + q.w); }
 
-/// Rows that instructions or inputs write; what others hold never changes.
-std::vector<bool> written_rows(const eval::Program& program) {
-  std::vector<bool> written(program.rows, false);
-  const auto mark = [&](const eval::Register& r) {
-    for (std::uint32_t row = r.row; row < r.row + r.width; ++row) written[row] = true;
-  };
-  for (const eval::Register& input : program.inputs) mark(input);
-  for (const eval::Instruction& instruction : program.instructions) mark(instruction.out);
-  return written;
-}
-
 /// Players of plain glTF and people who look at curves want no jumps between q and -q.
 void make_continuous(math::Quat before, std::vector<math::Quat>& rotations) {
   for (math::Quat& rotation : rotations) {
@@ -142,7 +131,7 @@ class RangeWorker {
                   const math::Affine& parent) {
     const double relative = math::shear(matrix);
     const double off =
-        distance(parent * math::compose(local), parent * matrix, evaluator_.reaches_[b].limb);
+        distance(parent * math::compose(local), parent * matrix, evaluator_.reaches()[b]);
     Shear& shear = found_.shear;
     shear.relative = std::max(shear.relative, relative);
     if (off <= shear.distance) return;
@@ -182,12 +171,12 @@ class RangeWorker {
 };
 
 Evaluator::Evaluator(const scene::Scene& scene, const std::vector<Body>& bodies,
-                     const std::vector<eval::ClipInput>& inputs)
+                     const std::vector<eval::ClipInput>& inputs, const std::vector<Reach>& reaches)
     : scene_(&scene),
       bodies_(&bodies),
       inputs_(&inputs),
-      plans_(bodies.size()),
-      reaches_(bake::reaches(scene, bodies)) {}
+      reaches_(&reaches),
+      plans_(bodies.size()) {}
 
 eval::Request Evaluator::request() {
   eval::Request request;
@@ -205,19 +194,14 @@ eval::Request Evaluator::request() {
 }
 
 void Evaluator::find_what_varies() {
-  const std::vector<bool> written = written_rows(program_);
-  const auto varies = [&](std::size_t output) {
-    const eval::Register& r = program_.outputs[output];
-    const auto first = written.begin() + r.row;
-    return std::find(first, first + r.width, true) != first + r.width;
-  };
+  const std::vector<bool> varies = eval::varying_outputs(program_);
   for (std::size_t b = bodies_->size(); b-- > 0;) {
     const Body& body = (*bodies_)[b];
     Plan& plan = plans_[b];
     const bool world = body.source == Body::Source::world;
     for (std::size_t path = 0; path < 3; ++path)
       plan.varies[path] =
-          world || (body.source == Body::Source::local && varies(plan.output + path));
+          world || (body.source == Body::Source::local && varies[plan.output + path]);
     if ((world || plan.is_followed) && body.base >= 0)
       plans_[static_cast<std::size_t>(body.base)].is_followed = true;
   }
@@ -225,8 +209,9 @@ void Evaluator::find_what_varies() {
 
 std::optional<Evaluator> Evaluator::make(const scene::Scene& scene, const std::vector<Body>& bodies,
                                          const std::vector<eval::ClipInput>& inputs,
+                                         const std::vector<Reach>& reaches,
                                          Diagnostics& diagnostics) {
-  Evaluator evaluator(scene, bodies, inputs);
+  Evaluator evaluator(scene, bodies, inputs, reaches);
   auto program = eval::compile(scene, evaluator.request(), diagnostics);
   if (!program) return std::nullopt;
   evaluator.program_ = std::move(*program);

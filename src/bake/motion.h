@@ -47,19 +47,19 @@ class Evaluator {
   /// All outlive it.
   static std::optional<Evaluator> make(const scene::Scene& scene, const std::vector<Body>& bodies,
                                        const std::vector<eval::ClipInput>& inputs,
-                                       Diagnostics& diagnostics);
+                                       const std::vector<Reach>& reaches, Diagnostics& diagnostics);
   std::optional<Motion> run(std::vector<double> times, Threads& threads,
                             Diagnostics& diagnostics) const;
 
   const std::vector<Body>& bodies() const { return *bodies_; }
-  const std::vector<Reach>& reaches() const { return reaches_; }
+  const std::vector<Reach>& reaches() const { return *reaches_; }
   /// Numbers that a bake keeps for each frame, at most.
   std::size_t width() const { return bodies_->size() * kMotionWidth; }
 
  private:
   friend class RangeWorker;
   Evaluator(const scene::Scene& scene, const std::vector<Body>& bodies,
-            const std::vector<eval::ClipInput>& inputs);
+            const std::vector<eval::ClipInput>& inputs, const std::vector<Reach>& reaches);
   eval::Request request();
   void find_what_varies();
   void prepare(Motion& motion, struct Found& found) const;
@@ -67,6 +67,7 @@ class Evaluator {
   const scene::Scene* scene_;
   const std::vector<Body>* bodies_;
   const std::vector<eval::ClipInput>* inputs_;
+  const std::vector<Reach>* reaches_;  // by body
   eval::Program program_;
   struct Plan {
     std::size_t output = 0;    ///< its first of the program's
@@ -74,7 +75,6 @@ class Evaluator {
     bool is_followed = false;  ///< others need its world
   };
   std::vector<Plan> plans_;  ///< by body
-  std::vector<Reach> reaches_;
 };
 
 /// Worlds of all bodies in one frame, rig space.

@@ -171,7 +171,7 @@ class Comparison {
         const auto base = static_cast<std::size_t>(std::max(body.base, 0));
         all_[b] = world_of(body, all, body.base < 0 ? nullptr : &all_[base]);
         reduced_[b] = world_of(body, reduced, body.base < 0 ? nullptr : &reduced_[base]);
-        error = std::max(error, distance(reduced_[b], all_[b], of_.reach_[b].limb));
+        error = std::max(error, distance(reduced_[b], all_[b], of_.reach_[b]));
       }
       return error;
     }
@@ -198,10 +198,9 @@ class Comparison {
 
 }  // namespace
 
-double reduce(const scene::Scene& scene, const std::vector<Body>& bodies, const Motion& motion,
-              const std::vector<float>& times, double tolerance, Threads& threads,
-              std::vector<Track>& tracks) {
-  const std::vector<Reach> reach = reaches(scene, bodies);
+double reduce(const std::vector<Body>& bodies, const std::vector<Reach>& reach,
+              const Motion& motion, const std::vector<float>& times, double tolerance,
+              Threads& threads, std::vector<Track>& tracks) {
   const auto shared = std::make_shared<const std::vector<float>>(times);
   std::vector<anim::Curve> all;
   for (const Track& track : tracks) all.push_back(curve_of(track, shared));

@@ -13,8 +13,8 @@ namespace rigc::bake {
 /// is further than `tolerance` (rig units) from where the tracks with all frames play it. Gives the
 /// largest distance, measured by playing both at the frames and at three times between each two;
 /// where nothing can be reduced, every frame stays a key.
-double reduce(const scene::Scene& scene, const std::vector<Body>& bodies, const Motion& motion,
-              const std::vector<float>& times, double tolerance, Threads& threads,
-              std::vector<Track>& tracks);
+double reduce(const std::vector<Body>& bodies, const std::vector<Reach>& reach,
+              const Motion& motion, const std::vector<float>& times, double tolerance,
+              Threads& threads, std::vector<Track>& tracks);
 
 }  // namespace rigc::bake

@@ -53,6 +53,10 @@ void for_frames(const Program& program, std::size_t count, Set set, Take take) {
   }
 }
 
+/// By output of a program, whether it can change from frame to frame: an instruction or an input
+/// writes it. Others hold their value from the beginning.
+std::vector<bool> varying_outputs(const Program& program);
+
 /// Frames that one instance runs in a row in for_ranges().
 inline constexpr std::size_t kRange = 8 * kLanes;
 

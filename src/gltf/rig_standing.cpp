@@ -30,6 +30,14 @@ std::vector<Standing> standings(const Slim& slim, const Rig& rig) {
     else
       standing.between = math::inverse(slim.world(rig.ancestor)) * standing.between;
   }
+  for (std::size_t node = 0; node < slim.nodes.size(); ++node) {
+    if (by_node[node].valid()) continue;
+    math::Affine way;
+    int at = static_cast<int>(node);
+    for (; at >= 0 && !by_node[static_cast<std::size_t>(at)].valid(); at = slim.node(at).parent)
+      way = slim.node(at).matrix * way;
+    if (at >= 0) out[by_node[static_cast<std::size_t>(at)].index].points.push_back(way.origin);
+  }
   return out;
 }
 

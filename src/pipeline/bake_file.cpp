@@ -35,7 +35,7 @@ std::vector<Bakeable> look_at_rigs(const gltf::Slim& slim, const std::vector<glt
     Bakeable& bakeable = out.emplace_back();
     bakeable.rig = &rig;
     for (const gltf::Standing& s : gltf::standings(slim, rig))
-      bakeable.standings.push_back({s.base, s.between, s.local});
+      bakeable.standings.push_back({s.base, s.between, s.local, s.points});
     for (scene::NodeId id : rig.scene.nodes()) {
       const bool bone = rig.scene[id].kind == scene::Kind::joint;
       if (!bone && rig.nodes[id.index] >= 0) bakeable.controls.insert(rig.nodes[id.index]);

@@ -95,6 +95,7 @@ TEST_CASE("pipeline bake: dropped keys move no joint by more than the tolerance,
     const tags::Character& character = wiggle.rigged.rig->skeleton.character;
     const double mm = 0.001 * character.unit * wiggle.rigged.height / character.height;
     const double error = difference(full, reduced, wiggle.name, test::times_at(120)) / mm;
+    MESSAGE(name, ": ", error, " mm, ", baked.clips[0].keys, " of ", all, " keys");
     CHECK(error <= 1);
     CHECK(error > 0.05);  // it is made use of
   });
