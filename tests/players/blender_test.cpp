@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
@@ -23,9 +24,20 @@ using test::Puppet;
 using test::ShownPrimitive;
 using test::Wiggle;
 
-/// Of the character's height. Blender keeps transforms of bones as 32-bit floats relative to its
-/// own rest pose, and multiplies up the chain in them.
-constexpr double kAllowed = 1e-5;
+constexpr double kAllowed = 1e-5;  // of the character's height
+
+/// Characters of the corpus. RobotExpressive's bones hang under a scale of 100, and Blender keeps
+/// the rest pose that theirs is relative to in 32-bit floats: it plays the model's own clips, which
+/// rigc never touched, off by 1.6e-5 of the height too, and its vertices, far from their bones, by
+/// three times that.
+struct Played {
+  const char* folder;
+  double allowed;  ///< of the height
+};
+constexpr Played kPlayed[] = {{"gdquest_mannequiny", kAllowed},
+                              {"khronos_CesiumMan", kAllowed},
+                              {"gltftransform_RobotExpressive_quant", 1e-4}};
+
 constexpr int kFrames[] = {0, 7, 11, 19, 26, 30};
 constexpr std::size_t kMostVertices = 500;
 
@@ -72,7 +84,7 @@ def shown():
             m = axes @ e.matrix_world
             mesh = e.to_mesh()
             step = max(1, -(-len(mesh.vertices) // int(most)))
-            at = [c for v in mesh.vertices[::step] for c in m @ v.co]
+            at = [c for v in list(mesh.vertices)[::step] for c in m @ v.co]
             vertices[o.name] = {'count': len(mesh.vertices), 'at': at}
             e.to_mesh_clear()
     return {'joints': joints, 'vertices': vertices}
@@ -83,9 +95,14 @@ for frame in frames:
 json.dump(states, open(out, 'w'))
 )";
 
-/// A copy whose nodes are named by their numbers, without what only renderers need.
-void save_numbered(const std::string& from, const std::string& to) {
+/// A copy whose nodes are named by their numbers, with one clip (what only others move stays where
+/// they leave it), without what only renderers need.
+void save_numbered(const std::string& from, const std::string& clip, const std::string& to) {
   test::Character c = test::load_character(from);
+  auto animations = nlohmann::ordered_json::array();
+  for (const auto& animation : c.json["animations"])
+    if (animation.value("name", "") == clip) animations.push_back(animation);
+  c.json["animations"] = animations;
   for (std::size_t i = 0; i < c.json["nodes"].size(); ++i)
     c.json["nodes"][i]["name"] = "n" + std::to_string(i);
   for (const char* key : {"materials", "textures", "images", "samplers", "extensionsRequired"})
@@ -99,7 +116,7 @@ json played_by_blender(const std::string& baked, const std::string& clip) {
   // What Blender is given is not ours to validate: that folder is left out.
   std::filesystem::create_directories(test::test_out("broken"));
   const std::string base = test::test_out("broken/blender_numbered");
-  save_numbered(baked, base + ".glb");
+  save_numbered(baked, clip, base + ".glb");
   std::ofstream(base + ".py") << kScript;
   std::string frames;
   for (const int frame : kFrames) frames += (frames.empty() ? "" : ",") + std::to_string(frame);
@@ -168,7 +185,8 @@ double vertex_error(const Puppet& puppet, const json& shown,
   return largest;
 }
 
-void compare(const std::string& model, const std::string& map, const std::string& name) {
+void compare(const std::string& model, const std::string& map, const std::string& name,
+             double allowed) {
   CAPTURE(name);
   const Wiggle wiggle = test::wiggle(test::rig_model(model, map, name), name, 5);
   const std::string baked = test::test_out(name + "_baked.glb");
@@ -192,8 +210,8 @@ void compare(const std::string& model, const std::string& map, const std::string
   }
   MESSAGE(name, ": joints ", joints / height, ", vertices ", vertices / height, " of the height");
   CHECK(comparison.count() >= 10);
-  CHECK(joints < kAllowed * height);
-  CHECK(vertices < kAllowed * height);
+  CHECK(joints < allowed * height);
+  CHECK(vertices < allowed * height);
 }
 
 bool has_blender() {
@@ -205,18 +223,19 @@ bool has_blender() {
 }  // namespace
 
 TEST_CASE("players blender: the biped with its proxies") {
-  if (has_blender()) compare("", "", "blender_biped");
+  if (has_blender()) compare("", "", "blender_biped", kAllowed);
 }
 
 TEST_CASE("players blender: characters of the corpus, skinned and morphed") {
   if (!has_blender()) return;
   for (const test::Humanoid& humanoid : test::humanoids()) {
     const std::string folder = humanoid.file.substr(0, humanoid.file.find('/'));
-    if (folder != "khronos_CesiumMan" && folder != "gltftransform_RobotExpressive_quant" &&
-        folder != "gdquest_mannequiny")
-      continue;
+    const auto played = std::find_if(std::begin(kPlayed), std::end(kPlayed),
+                                     [&](const Played& one) { return folder == one.folder; });
+    if (played == std::end(kPlayed)) continue;
     const std::string model = test::corpus_file(humanoid.file);
-    if (!model.empty()) compare(model, test::user_map(humanoid), "blender_" + folder);
+    if (!model.empty())
+      compare(model, test::user_map(humanoid), "blender_" + folder, played->allowed);
   }
 }
 
