@@ -165,5 +165,7 @@ struct Standing {
 };
 /// By scene node; meaningful where the rig has a glTF node. `slim`: of the file.
 std::vector<Standing> standings(const Slim& slim, const Rig& rig);
+std::optional<std::vector<Standing>> standings(const File& file, const Rig& rig,
+                                               Diagnostics& diagnostics);
 
 }  // namespace rigc::gltf

@@ -41,4 +41,11 @@ std::vector<Standing> standings(const Slim& slim, const Rig& rig) {
   return out;
 }
 
+std::optional<std::vector<Standing>> standings(const File& file, const Rig& rig,
+                                               Diagnostics& diagnostics) {
+  const auto slim = read_slim(file, diagnostics, false);
+  if (!slim) return std::nullopt;
+  return standings(*slim, rig);
+}
+
 }  // namespace rigc::gltf
