@@ -26,17 +26,6 @@ double seconds_now() {
   return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
 }
 
-bool read_jobs(BatchOptions& batch, Diagnostics& diagnostics) {
-  const double jobs = batch.jobs.value_or(0);
-  if (!batch.jobs || (jobs >= 1 && jobs <= 1e6 && jobs == std::floor(jobs))) {
-    batch.request.jobs = static_cast<unsigned>(jobs);
-    return true;
-  }
-  diagnostics.report(pipeline::codes::kBadOptions, Place(),
-                     "--jobs takes how many files to work on at a time, 1 or more");
-  return false;
-}
-
 std::string summary(const pipeline::Batch& batch, bool lists_all) {
   std::string text;
   const bool lists = lists_all || batch.entries.size() <= kFewFiles;
@@ -49,19 +38,32 @@ std::string summary(const pipeline::Batch& batch, bool lists_all) {
 
 }  // namespace
 
-void declare_batch(Options& options, BatchOptions& batch) {
+bool read_jobs(BatchOptions& batch, Diagnostics& diagnostics) {
+  const double jobs = batch.jobs.value_or(0);
+  if (!batch.jobs || (jobs >= 1 && jobs <= 1e6 && jobs == std::floor(jobs))) {
+    batch.request.jobs = static_cast<unsigned>(jobs);
+    return true;
+  }
+  diagnostics.report(pipeline::codes::kBadOptions, Place(),
+                     "--jobs takes how many threads work at a time, 1 or more");
+  return false;
+}
+
+void declare_batch(Options& options, BatchOptions& batch, Target target) {
   pipeline::BatchRequest& request = batch.request;
+  const bool in_place = target == Target::in_place;
+  const std::string otherwise = in_place ? " (default: in place)" : "";
   options.positionals("FILE", request.inputs,
                       "Files, folders, patterns in quotes ('shots/**/a*.glb'), @LIST for a file "
                       "with one path per line");
-  options.text("-o,--output", "OUT", request.output, false,
-               "Write the only file here (default: in place)");
+  options.text("-o,--output", "OUT", request.output, false, "Write the only file here" + otherwise);
   options.text("--out-dir", "DIR", request.out_dir, false,
-               "Write into this folder, mirrored (default: in place)");
-  options.text("--backup", "DIR", request.backup, false,
-               "Copy originals into this folder before they are replaced");
+               "Write into this folder, mirrored" + otherwise);
+  if (in_place)
+    options.text("--backup", "DIR", request.backup, false,
+                 "Copy originals into this folder before they are replaced");
   options.number("--jobs", "N", batch.jobs,
-                 "Files to work on at a time (default: one for each processor)");
+                 "Threads that work at a time (default: one for each processor)");
   options.text("--report", "R.json", request.report, false,
                "Write what became of each file, also when interrupted");
   options.text("--resume", "R.json", request.resume, false,

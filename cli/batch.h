@@ -16,8 +16,14 @@ struct BatchOptions {
   std::optional<double> jobs;
 };
 
-/// FILE... --jobs --report --resume --out-dir --backup -o.
-void declare_batch(Options& options, BatchOptions& batch);
+/// Where the output of a command goes that is told nothing.
+enum class Target { in_place, elsewhere };
+
+/// FILE... --jobs --report --resume --out-dir -o, and --backup for what is replaced in place.
+void declare_batch(Options& options, BatchOptions& batch, Target target = Target::in_place);
+
+/// --jobs into the request; false: it was no number of jobs, which was reported.
+bool read_jobs(BatchOptions& batch, Diagnostics& diagnostics);
 
 /// Does the work for all files: progress and their diagnostics go to stderr as they come, the
 /// summary (with --json the report) to stdout. `lists_all` prints every file's line, however many.

@@ -66,17 +66,14 @@ void cubic(const Curve& curve, bool rotation, std::size_t key, double t, double 
   if (rotation) write({out[0], out[1], out[2], out[3]}, out);
 }
 
-}  // namespace
-
-void sample(const Curve& curve, bool rotation, double seconds, double* out) {
+/// `after`: how many keys lie at or before the time.
+void sample_after(const Curve& curve, bool rotation, std::size_t after, double seconds,
+                  double* out) {
   const std::vector<float>& times = *curve.times;
   assert(!times.empty() && (!rotation || curve.width == 4));
-  const auto after = std::upper_bound(times.begin(), times.end(), seconds, [](double t, float key) {
-    return t < static_cast<double>(key);
-  });
-  if (after == times.begin()) return copy_key(curve, rotation, 0, out);
-  const auto key = static_cast<std::size_t>(after - times.begin()) - 1;
-  if (key + 1 == times.size() || curve.interpolation == Interpolation::step) {
+  if (after == 0) return copy_key(curve, rotation, 0, out);
+  const std::size_t key = after - 1;
+  if (after == times.size() || curve.interpolation == Interpolation::step) {
     return copy_key(curve, rotation, key, out);
   }
   const auto begin = static_cast<double>(times[key]);
@@ -84,6 +81,28 @@ void sample(const Curve& curve, bool rotation, double seconds, double* out) {
   const double t = (seconds - begin) / distance;
   if (curve.interpolation == Interpolation::linear) return linear(curve, rotation, key, t, out);
   cubic(curve, rotation, key, t, distance, out);
+}
+
+std::size_t keys_up_to(const std::vector<float>& times, double seconds) {
+  const auto after = std::upper_bound(times.begin(), times.end(), seconds, [](double t, float key) {
+    return t < static_cast<double>(key);
+  });
+  return static_cast<std::size_t>(after - times.begin());
+}
+
+}  // namespace
+
+void sample(const Curve& curve, bool rotation, double seconds, double* out) {
+  sample_after(curve, rotation, keys_up_to(*curve.times, seconds), seconds, out);
+}
+
+void Sampler::at(double seconds, double* out) {
+  const std::vector<float>& times = *curve_->times;
+  const auto passed = [&](std::size_t key) { return static_cast<double>(times[key]) <= seconds; };
+  const bool rises = after_ > 0 && passed(after_ - 1);
+  if (!rises) after_ = keys_up_to(times, seconds);
+  while (after_ < times.size() && passed(after_)) ++after_;
+  sample_after(*curve_, rotation_, after_, seconds, out);
 }
 
 double first_time(const Clip& clip) {

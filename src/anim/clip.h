@@ -46,6 +46,22 @@ struct Clip {
 /// quaternion.
 void sample(const Curve& curve, bool rotation, double seconds, double* out);
 
+/// Samples one curve again and again; where times rise it need not look for the keys. Gives exactly
+/// the numbers of sample().
+class Sampler {
+ public:
+  /// `curve` outlives the sampler.
+  Sampler(const Curve& curve, bool rotation) : curve_(&curve), rotation_(rotation) {}
+  void at(double seconds, double* out);
+  /// The same at every time.
+  bool is_constant() const { return curve_->times->size() == 1; }
+
+ private:
+  const Curve* curve_;
+  bool rotation_;
+  std::size_t after_ = 0;  ///< keys up to the last time that was asked for
+};
+
 /// Time of the earliest and the latest key of any channel; 0 for a clip without keys.
 double first_time(const Clip& clip);
 double last_time(const Clip& clip);

@@ -6,16 +6,21 @@
 #include <algorithm>
 
 #include "bake/frames.h"
+#include "bake/insert.h"
 #include "bake/reduce.h"
 
 namespace rigc::bake {
 namespace {
 
-/// Only with its times.
+/// Only with its times, and the values of steps.
 anim::Clip clip_of(const std::vector<eval::ClipInput>& inputs) {
   anim::Clip clip;
-  for (const eval::ClipInput& input : inputs)
-    clip.channels.emplace_back().curve.times = input.curve->times;
+  for (const eval::ClipInput& input : inputs) {
+    anim::Curve& curve = clip.channels.emplace_back().curve;
+    curve.times = input.curve->times;
+    if (input.curve->interpolation != anim::Interpolation::step) continue;
+    curve = *input.curve;
+  }
   return clip;
 }
 
@@ -50,6 +55,14 @@ void add_channels(const std::vector<Track>& tracks, const std::vector<Body>& bod
 
 }  // namespace
 
+void Shear::add(const Shear& other) {
+  relative = std::max(relative, other.relative);
+  if (other.distance <= distance) return;
+  distance = other.distance;
+  joint = other.joint;
+  seconds = other.seconds;
+}
+
 std::optional<anim::Clip> bake(const scene::Scene& scene, const std::vector<int>& nodes,
                                const anim::Clip& clip, const Options& options, Report& report,
                                Diagnostics& diagnostics) {
@@ -59,17 +72,27 @@ std::optional<anim::Clip> bake(const scene::Scene& scene, const std::vector<int>
   auto times =
       frame_times(clip, clip_of(inputs), options, bodies.size() * kMotionWidth, diagnostics);
   if (!times) return std::nullopt;
-  const auto motion = evaluate(scene, bodies, inputs, std::move(*times), diagnostics);
+  Threads alone(1);
+  Threads& threads = options.threads ? *options.threads : alone;
+  const std::vector<Reach> reach = reaches(scene, nodes, bodies, options);
+  const auto evaluator = Evaluator::make(scene, bodies, inputs, reach, diagnostics);
+  if (!evaluator) return std::nullopt;
+  const bool inserts = options.fps == 0 && options.tolerance > 0;
+  const double tolerance = inserts ? options.tolerance / 2 : options.tolerance;
+  if (inserts)
+    times = insert_frames(*evaluator, std::move(*times), tolerance, threads, diagnostics);
+  if (!times) return std::nullopt;
+  const auto motion = evaluator->run(std::move(*times), threads, diagnostics);
   if (!motion) return std::nullopt;
-  std::vector<Track> tracks = find_tracks(scene, bodies, *motion);
+  std::vector<Track> tracks = find_tracks(scene, bodies, *motion, threads);
   std::vector<float> key_times = as_floats(motion->times);
 
   report.frames = std::max(report.frames, key_times.size());
-  report.shear = std::max(report.shear, motion->shear);
-  if (options.tolerance > 0)
+  report.shear.add(motion->shear);
+  if (tolerance > 0)
     report.reduction_error =
         std::max(report.reduction_error,
-                 reduce(scene, bodies, *motion, key_times, options.tolerance, tracks));
+                 reduce(bodies, reach, *motion, key_times, tolerance, threads, tracks));
   for (const Body& body : bodies)
     if (body.is_output) report.driven.push_back(nodes[body.id.index]);
 

@@ -141,4 +141,89 @@ std::vector<Body> find_bodies(const scene::Scene& scene, const std::vector<int>&
   return Finder(scene, nodes, animated, options).find();
 }
 
+namespace {
+
+/// Of a body without any before or after it in the file: as long as its bone in the scene, or as
+/// the way from the origin; of what is there, a unit.
+double length_alone(const scene::Scene& scene, NodeId id) {
+  const math::Vec3 origin = scene.rest_world(id).origin;
+  const NodeId parent = scene[id].parent;
+  const double bone = parent.valid() ? math::length(origin - scene.rest_world(parent).origin) : 0.0;
+  const double way = math::length(origin);
+  return bone > 0 ? bone : way > 0 ? way : 1.0;
+}
+
+/// Finds what moves with bodies without being one.
+void add_points(const scene::Scene& scene, const std::vector<int>& nodes,
+                const std::vector<Body>& bodies, const std::vector<Standing>& standings,
+                std::vector<Reach>& out) {
+  std::vector<int> places(scene.size(), -1);
+  for (std::size_t i = 0; i < bodies.size(); ++i) places[bodies[i].id.index] = static_cast<int>(i);
+  for (const NodeId id : scene.nodes()) {
+    if (scene[id].kind != scene::Kind::joint || nodes[id.index] < 0) continue;
+    math::Affine way;  // from the body to the joint
+    NodeId at = id;
+    for (; at.valid() && places[at.index] < 0; at = standings[at.index].base)
+      way = standings[at.index].between * math::compose(standings[at.index].local) * way;
+    if (!at.valid()) continue;
+    Reach& reach = out[static_cast<std::size_t>(places[at.index])];
+    if (at != id) reach.points.push_back(way.origin);
+    for (const math::Vec3& point : standings[id.index].points) reach.points.push_back(way * point);
+  }
+}
+
+/// A point of a body, rig space at rest, is felt by the body and all above it.
+void feel(const math::Vec3& point, std::size_t body, const std::vector<Body>& bodies,
+          const std::vector<math::Affine>& rests, std::vector<Reach>& out) {
+  out[body].limb = std::max(out[body].limb, math::length(point - rests[body].origin));
+  for (int above = static_cast<int>(body); above >= 0;
+       above = bodies[static_cast<std::size_t>(above)].base) {
+    const auto at = static_cast<std::size_t>(above);
+    out[at].subtree = std::max(out[at].subtree, math::length(point - rests[at].origin));
+  }
+}
+
+}  // namespace
+
+std::vector<Reach> reaches(const scene::Scene& scene, const std::vector<int>& nodes,
+                           const std::vector<Body>& bodies, const Options& options) {
+  std::vector<Reach> out(bodies.size());
+  std::vector<math::Affine> rests;
+  for (const Body& body : bodies) rests.push_back(scene.rest_world(body.id));
+  if (!options.standings.empty()) add_points(scene, nodes, bodies, options.standings, out);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (const math::Vec3& point : out[i].points) feel(rests[i] * point, i, bodies, rests, out);
+    if (bodies[i].base < 0) continue;
+    const auto base = static_cast<std::size_t>(bodies[i].base);
+    out[i].scale = std::max(math::length(rests[base].linear.x), 1e-12);
+    feel(rests[i].origin, base, bodies, rests, out);
+    // Of a leaf: as long as the bone before it.
+    out[i].limb = std::max(out[i].limb, math::length(rests[i].origin - rests[base].origin));
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (out[i].limb == 0) out[i].limb = length_alone(scene, bodies[i].id);
+    out[i].subtree = std::max(out[i].subtree, out[i].limb);
+  }
+  return out;
+}
+
+math::Affine world_of(const Body& body, const math::Trs& local, const math::Affine* base) {
+  const math::Affine matrix = math::compose(local);
+  if (body.between == math::Affine{}) return base ? *base * matrix : matrix;
+  return base ? *base * body.between * matrix : body.between * matrix;
+}
+
+double distance(const math::Affine& a, const math::Affine& b, const Reach& reach) {
+  double largest = math::length(a.origin - b.origin);
+  for (const auto axis : {&math::Mat3::x, &math::Mat3::y, &math::Mat3::z}) {
+    const double length = math::length(b.linear.*axis);
+    if (length < 1e-30) continue;
+    const math::Vec3 off = (a.linear.*axis - b.linear.*axis) * (reach.limb / length);
+    largest = std::max(largest, math::length(a.origin - b.origin + off));
+  }
+  for (const math::Vec3& point : reach.points)
+    largest = std::max(largest, math::length(a * point - b * point));
+  return largest;
+}
+
 }  // namespace rigc::bake

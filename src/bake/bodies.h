@@ -30,4 +30,24 @@ struct Body {
 std::vector<Body> find_bodies(const scene::Scene& scene, const std::vector<int>& nodes,
                               const std::vector<bool>& animated, const Options& options);
 
+/// How far a body's own change is felt: lengths in rig units at rest.
+struct Reach {
+  double limb = 0;  ///< to the farthest base-child, or as long as its own bone, never 0: where its
+                    ///< rotation is measured
+  double subtree = 0;  ///< to the farthest body below it
+  double scale = 1;    ///< of its parent: a unit of its translation in rig units
+  /// What moves with it without being a body: joints without channels, nodes that are not the
+  /// rig's. In its own space.
+  std::vector<math::Vec3> points;
+};
+std::vector<Reach> reaches(const scene::Scene& scene, const std::vector<int>& nodes,
+                           const std::vector<Body>& bodies, const Options& options);
+
+/// World of a body from its local transform and the world of its base (null: the rig's space).
+math::Affine world_of(const Body& body, const math::Trs& local, const math::Affine* base);
+
+/// How far apart two worlds of a body are: its origin, its points, and points on its axes as far
+/// away as its limb is long.
+double distance(const math::Affine& a, const math::Affine& b, const Reach& reach);
+
 }  // namespace rigc::bake

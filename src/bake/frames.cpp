@@ -45,27 +45,44 @@ std::vector<double> grid(const Window& range, double fps) {
   return times;
 }
 
+/// Right before keys that a step leads to: linear keys there play the step too.
+void add_times_before_steps(const anim::Curve& curve, std::vector<double>& times) {
+  if (curve.interpolation != anim::Interpolation::step) return;
+  const auto width = static_cast<std::ptrdiff_t>(curve.width);
+  for (std::size_t key = 1; key < curve.times->size(); ++key) {
+    const auto value = curve.values.begin() + static_cast<std::ptrdiff_t>(key) * width;
+    if (!std::equal(value - width, value, value))
+      times.push_back(static_cast<double>(std::nextafter((*curve.times)[key], -1.0f)));
+  }
+}
+
 std::vector<double> keys(const Window& range, const anim::Clip& animated) {
-  std::vector<double> times{range.start};
-  for (const double time : anim::key_times(animated))
-    if (time > range.start && time < range.end) times.push_back(time);
+  std::vector<double> times = anim::key_times(animated);
+  for (const anim::Channel& channel : animated.channels)
+    add_times_before_steps(channel.curve, times);
+  const auto is_outside = [&](double t) { return !(t > range.start && t < range.end); };
+  times.erase(std::remove_if(times.begin(), times.end(), is_outside), times.end());
+  times.push_back(range.start);
   times.push_back(range.end);
+  std::sort(times.begin(), times.end());
   return times;
 }
 
-/// Leaves of frames that glTF's 32-bit times cannot tell apart the last.
-void make_distinct(std::vector<double>& times) {
-  std::vector<double> distinct;
-  for (const double time : times) {
-    if (!distinct.empty() && static_cast<float>(distinct.back()) == static_cast<float>(time))
-      distinct.back() = time;
-    else
-      distinct.push_back(time);
-  }
-  times = std::move(distinct);
+/// As glTF holds them, in 32 bits: a step of a control is a step at the very time of its key.
+void round(std::vector<double>& times) {
+  for (double& time : times) time = static_cast<double>(static_cast<float>(time));
+  times.erase(std::unique(times.begin(), times.end()), times.end());
 }
 
 }  // namespace
+
+bool check_frame_count(double count, std::size_t width, Diagnostics& diagnostics) {
+  if (count <= kMostFrames && count * static_cast<double>(width) <= kMostNumbers) return true;
+  diagnostics.report(codes::kTooLong, {},
+                     fmt::format("the clip would have {:.0f} frames of {} numbers", count, width),
+                     "bake it in parts with --start and --end, or at a lower --fps");
+  return false;
+}
 
 std::optional<std::vector<double>> frame_times(const anim::Clip& clip, const anim::Clip& animated,
                                                const Options& options, std::size_t width,
@@ -79,14 +96,9 @@ std::optional<std::vector<double>> frame_times(const anim::Clip& clip, const ani
     times = keys(*range, animated);
     count = static_cast<double>(times.size());
   }
-  if (count > kMostFrames || count * static_cast<double>(width) > kMostNumbers) {
-    diagnostics.report(codes::kTooLong, {},
-                       fmt::format("the clip would have {:.0f} frames of {} numbers", count, width),
-                       "bake it in parts with --start and --end, or at a lower --fps");
-    return std::nullopt;
-  }
+  if (!check_frame_count(count, width, diagnostics)) return std::nullopt;
   if (on_grid) times = grid(*range, options.fps);
-  make_distinct(times);
+  round(times);
   return times;
 }
 

@@ -10,10 +10,11 @@
 namespace rigc::bake {
 
 /// Chooses `keys` of every track so that no joint, and no point at the length of its limb from it,
-/// is further than `tolerance` (rig units) from where it was, in any frame. Gives the largest
-/// distance, measured by playing the reduced tracks; where nothing can be reduced, every frame
-/// stays a key.
-double reduce(const scene::Scene& scene, const std::vector<Body>& bodies, const Motion& motion,
-              const std::vector<float>& times, double tolerance, std::vector<Track>& tracks);
+/// is further than `tolerance` (rig units) from where the tracks with all frames play it. Gives the
+/// largest distance, measured by playing both at the frames and at three times between each two;
+/// where nothing can be reduced, every frame stays a key.
+double reduce(const std::vector<Body>& bodies, const std::vector<Reach>& reach,
+              const Motion& motion, const std::vector<float>& times, double tolerance,
+              Threads& threads, std::vector<Track>& tracks);
 
 }  // namespace rigc::bake

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Makes channels of a motion. Test: tests/bake/tracks_test.cpp
+// Makes channels of a motion. Test: tests/bake/bake_test.cpp
 #include "bake/tracks.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace rigc::bake {
@@ -22,63 +21,72 @@ double size_of(const scene::Scene& scene, const std::vector<Body>& bodies) {
   return size;
 }
 
-using Numbers = std::array<double, 4>;
-
-Numbers numbers_of(const math::Trs& trs, anim::Path path) {
-  if (path == anim::Path::rotation)
-    return {trs.rotation.x, trs.rotation.y, trs.rotation.z, trs.rotation.w};
-  const math::Vec3& v = path == anim::Path::translation ? trs.translation : trs.scale;
-  return {v.x, v.y, v.z, 0};
+bool differ(const math::Vec3& a, const math::Vec3& b, double noise) {
+  return std::abs(a.x - b.x) > noise || std::abs(a.y - b.y) > noise || std::abs(a.z - b.z) > noise;
 }
 
-bool differ(const Numbers& a, const Numbers& b, double noise) {
-  for (std::size_t i = 0; i < 4; ++i)
-    if (std::abs(a[i] - b[i]) > noise) return true;
-  return false;
+bool differ(const math::Quat& a, const math::Quat& b, double noise) {
+  return std::abs(a.x - b.x) > noise || std::abs(a.y - b.y) > noise ||
+         std::abs(a.z - b.z) > noise || std::abs(a.w - b.w) > noise;
 }
 
-/// Of a body's translations: the size as the body's parent sees it.
-double translation_noise(const Body& body, const Motion& motion, std::size_t index, double size) {
-  math::Affine parent = body.between;
-  if (body.base >= 0) parent = motion.worlds[static_cast<std::size_t>(body.base)][0] * parent;
+float* write(const math::Vec3& v, float* to) {
+  for (std::size_t i = 0; i < 3; ++i) *to++ = static_cast<float>(v[i]) + 0.0f;  // no negative zeros
+  return to;
+}
+
+float* write(const math::Quat& q, float* to) {
+  for (const double n : {q.x, q.y, q.z, q.w}) *to++ = static_cast<float>(n) + 0.0f;
+  return to;
+}
+
+/// Of a body's translations: the size as the body's parent sees it. `parent`: its world.
+double translation_noise(const Body& body, const math::Affine& parent, const math::Vec3& first,
+                         double size) {
   const double scale = math::length(parent.linear.x);
-  const double own = std::max(math::length(body.standing.translation),
-                              math::length(motion.locals[index][0].translation));
+  const double own = std::max(math::length(body.standing.translation), math::length(first));
   return kNoise * std::max(scale > 0 ? size / scale : 0, own);
+}
+
+/// Appends the track of one path of a body, if it needs one.
+template <class T>
+void add_track(std::size_t body, anim::Path path, const T& standing, const Series<T>& series,
+               double noise, std::vector<Track>& out) {
+  const std::vector<T>& values = series.values;
+  const bool moves = std::any_of(values.begin() + 1, values.end(),
+                                 [&](const T& value) { return differ(value, values[0], noise); });
+  if (!moves && !differ(values[0], standing, noise)) return;
+  Track& track = out.emplace_back();
+  track = {body, path, path == anim::Path::rotation ? 4 : 3, {}, {}, !moves};
+  const std::size_t count = moves ? values.size() : 1;
+  track.values.resize(count * static_cast<std::size_t>(track.width));
+  float* to = track.values.data();
+  for (std::size_t i = 0; i < count; ++i) to = write(values[i], to);
 }
 
 }  // namespace
 
 std::vector<Track> find_tracks(const scene::Scene& scene, const std::vector<Body>& bodies,
-                               const Motion& motion) {
+                               const Motion& motion, Threads& threads) {
   const double size = size_of(scene, bodies);
-  const std::size_t frames = motion.times.size();
+  const std::vector<math::Affine> worlds = worlds_at(bodies, motion, 0);
+  std::vector<std::vector<Track>> of_bodies(bodies.size());
+  threads.for_each(bodies.size(), [&](std::size_t b) {
+    const Body& body = bodies[b];
+    if (!body.is_output) return;
+    const Moves& moves = motion.bodies[b];
+    math::Affine parent = body.between;
+    if (body.base >= 0) parent = worlds[static_cast<std::size_t>(body.base)] * parent;
+    const double noise = translation_noise(body, parent, moves.translation[0], size);
+    std::vector<Track>& out = of_bodies[b];
+    add_track(b, anim::Path::translation, body.standing.translation, moves.translation, noise, out);
+    add_track(b, anim::Path::rotation, math::normalised(body.standing.rotation), moves.rotation,
+              kRotationNoise, out);
+    add_track(b, anim::Path::scale, body.standing.scale, moves.scale, kNoise, out);
+  });
   std::vector<Track> tracks;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (!bodies[b].is_output) continue;
-    math::Trs standing = bodies[b].standing;
-    standing.rotation = math::normalised(standing.rotation);
-    for (const anim::Path path :
-         {anim::Path::translation, anim::Path::rotation, anim::Path::scale}) {
-      const double noise = path == anim::Path::translation
-                               ? translation_noise(bodies[b], motion, b, size)
-                           : path == anim::Path::rotation ? kRotationNoise
-                                                          : kNoise;
-      const Numbers at_rest = numbers_of(standing, path);
-      const Numbers first = numbers_of(motion.locals[b][0], path);
-      bool moves = false, differs = differ(first, at_rest, noise);
-      for (std::size_t f = 1; f < frames && !moves; ++f)
-        moves = differ(numbers_of(motion.locals[b][f], path), first, noise);
-      if (!moves && !differs) continue;
-      Track track{b, path, path == anim::Path::rotation ? 4 : 3, {}, {}, !moves};
-      for (std::size_t f = 0; f < (moves ? frames : 1); ++f) {
-        const Numbers n = numbers_of(motion.locals[b][f], path);
-        for (std::size_t i = 0; i < static_cast<std::size_t>(track.width); ++i)
-          track.values.push_back(static_cast<float>(n[i]) + 0.0f);  // no negative zeros
-      }
-      tracks.push_back(std::move(track));
-    }
-  }
+  for (std::vector<Track>& some : of_bodies)
+    for (Track& track : some) tracks.push_back(std::move(track));
   return tracks;
 }
 

@@ -23,7 +23,7 @@ struct Track {
 /// Tracks that are needed: a joint's value differs from what stands in its file, by more than the
 /// noise of 32-bit floats.
 std::vector<Track> find_tracks(const scene::Scene& scene, const std::vector<Body>& bodies,
-                               const Motion& motion);
+                               const Motion& motion, Threads& threads);
 
 /// `times`: of all frames, shared by the channels that have all keys.
 anim::Curve curve_of(const Track& track, const std::shared_ptr<const std::vector<float>>& times);

@@ -42,4 +42,21 @@ std::vector<math::Affine> worlds(const scene::Scene& scene, const std::vector<sc
   return result;
 }
 
+std::vector<bool> varying_outputs(const Program& program) {
+  std::vector<bool> written(program.rows, false);
+  const auto mark = [&](const Register& r) {
+    for (std::uint32_t row = r.row; row < r.row + r.width; ++row) written[row] = true;
+  };
+  for (const Register& input : program.inputs) mark(input);
+  for (const Instruction& instruction : program.instructions) mark(instruction.out);
+  std::vector<bool> varying;
+  for (const Register& output : program.outputs) {
+    bool varies = false;
+    for (std::uint32_t row = output.row; row < output.row + output.width; ++row)
+      varies = varies || written[row];
+    varying.push_back(varies);
+  }
+  return varying;
+}
+
 }  // namespace rigc::eval

@@ -156,8 +156,15 @@ void Patch::set_root_extension(std::string_view name, std::string json) {
   const bool removes = json.empty();
   state_->fills("/extensions", extensions);
   if (!extensions.empty() || !removes) {
-    std::string changed =
-        with_member(extensions.empty() ? "{}" : extensions, name, std::move(json));
+    const json::Value read = state_->file.root()["extensions"];
+    std::string changed;
+    if (read && read.text() == extensions) {  // its members are known: RIGC_rig is large
+      Splice splice(read);
+      splice.set(name, std::move(json));
+      changed = splice.text();
+    } else {
+      changed = with_member(extensions.empty() ? "{}" : extensions, name, std::move(json));
+    }
     state_->set_member("extensions", state_->emptied("/extensions", std::move(changed)));
   }
   removes ? drop_extension(name) : use_extension(name);

@@ -161,8 +161,10 @@ struct Standing {
   scene::NodeId base;    ///< nearest node of the rig above it in the file; invalid: the rig's space
   math::Affine between;  ///< from the base (or the rig's space) to the node's parent in the file
   math::Trs local;       ///< of the node in the file
+  std::vector<math::Vec3> points;  ///< in its space: nodes below it that are not the rig's
 };
-/// By scene node; meaningful where the rig has a glTF node.
+/// By scene node; meaningful where the rig has a glTF node. `slim`: of the file.
+std::vector<Standing> standings(const Slim& slim, const Rig& rig);
 std::optional<std::vector<Standing>> standings(const File& file, const Rig& rig,
                                                Diagnostics& diagnostics);
 

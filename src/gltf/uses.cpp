@@ -63,8 +63,10 @@ void Uses::find_mentions(const json::Value& value, bool inside) {
       find_mentions(member, inside);
       continue;
     }
-    for (const auto& [extension, content] : member.members())
+    for (const auto& [extension, content] : member.members()) {
+      if (extension == "RIGC_rig" && !inside) continue;  // mostly, the larger part of a file
       find_mentions(content, inside || may_name_accessors(extension));
+    }
   }
   for (const json::Value& item : value.items())
     if (inside || !item.is_number()) find_mentions(item, inside);

@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "base/text.h"
 #include "gltf/clips.h"
 #include "gltf/rig.h"
+#include "gltf/slim.h"
 #include "pipeline/build.h"
 #include "pipeline/codes.h"
 #include "pipeline/locks.h"
@@ -27,17 +29,13 @@ struct Bakeable {
   std::set<int> controls;  ///< glTF nodes that are not bones: what animators key
 };
 
-std::optional<std::vector<Bakeable>> look_at_rigs(const gltf::File& file,
-                                                  const std::vector<gltf::Rig>& rigs,
-                                                  Diagnostics& diagnostics) {
+std::vector<Bakeable> look_at_rigs(const gltf::Slim& slim, const std::vector<gltf::Rig>& rigs) {
   std::vector<Bakeable> out;
   for (const gltf::Rig& rig : rigs) {
-    const auto standings = gltf::standings(file, rig, diagnostics);
-    if (!standings) return std::nullopt;
     Bakeable& bakeable = out.emplace_back();
     bakeable.rig = &rig;
-    for (const gltf::Standing& s : *standings)
-      bakeable.standings.push_back({s.base, s.between, s.local});
+    for (const gltf::Standing& s : gltf::standings(slim, rig))
+      bakeable.standings.push_back({s.base, s.between, s.local, s.points});
     for (scene::NodeId id : rig.scene.nodes()) {
       const bool bone = rig.scene[id].kind == scene::Kind::joint;
       if (!bone && rig.nodes[id.index] >= 0) bakeable.controls.insert(rig.nodes[id.index]);
@@ -50,6 +48,8 @@ std::optional<bake::Options> read_options(const BakeRequest& request, Diagnostic
   bake::Options options;
   options.start = request.start;
   options.end = request.end;
+  options.controls_play = request.keep_rig;
+  options.threads = request.threads;
   const auto fps = request.fps == "source" ? std::optional<double>(0) : parse_number(request.fps);
   const bool positive = fps && (*fps > 0 || request.fps == "source") && *fps <= 10000;
   if (!positive || (request.start && request.end && *request.start > *request.end)) {
@@ -90,7 +90,7 @@ std::optional<std::set<std::size_t>> choose_clips(const BakeRequest& request,
 }
 
 /// Reports joints that a clip animates although the rig drives them, and shear.
-void report_clip(const BakeRequest& request, const anim::Clip& clip, const bake::Report& report,
+void report_clip(const BakeRequest& request, const anim::Clip& clip, const BakedClip& baked,
                  std::size_t foreign, Diagnostics& diagnostics) {
   const Place place(request.file, fmt::format("/animations/{}", clip.source_animation));
   if (foreign > 0) {
@@ -99,52 +99,123 @@ void report_clip(const BakeRequest& request, const anim::Clip& clip, const bake:
         fmt::format("{} channels of clip \"{}\" move joints that the rig drives; the controls win",
                     foreign, printable(clip.name)));
   }
-  if (report.shear > kShearReported) {
-    diagnostics.report(codes::kShear, place,
-                       fmt::format("clip \"{}\": joints are sheared, by up to {:.2g} of their size",
-                                   printable(clip.name), report.shear));
+  if (baked.shear.relative > kShearReported) {
+    diagnostics.report(
+        codes::kShear, place,
+        fmt::format(
+            "clip \"{}\": joints are sheared; \"{}\" most, at {:.3f} seconds: points at the "
+            "length of its limb are off by {:.2g} mm",
+            printable(clip.name), printable(baked.shear.joint), baked.shear.seconds,
+            baked.shear.mm));
   }
 }
 
+/// Adds what the bake of one rig says.
+void add_report(const bake::Report& report, const gltf::Rig& rig, BakedClip& baked) {
+  const double to_mm = 1000 / rig.skeleton.character.unit;
+  baked.frames = std::max(baked.frames, report.frames);
+  baked.channels += report.channels;
+  baked.keys += report.keys;
+  baked.reduction_mm = std::max(baked.reduction_mm, report.reduction_error * to_mm);
+  baked.shear.relative = std::max(baked.shear.relative, report.shear.relative);
+  if (report.shear.distance * to_mm <= baked.shear.mm) return;
+  baked.shear.mm = report.shear.distance * to_mm;
+  baked.shear.joint = rig.scene[report.shear.joint].name;
+  baked.shear.seconds = report.shear.seconds;
+}
+
+bool concerns(const anim::Clip& clip, const std::set<int>& controls) {
+  return std::any_of(clip.channels.begin(), clip.channels.end(),
+                     [&](const auto& channel) { return controls.count(channel.node) != 0; });
+}
+
+/// What baking a clip gives, without anything being written.
+struct ClipResult {
+  bool good = false;
+  BakedClip baked;
+  gltf::ClipChange change;  ///< empty where the clip passes through
+};
+
 /// Bakes one clip over every rig whose controls it animates.
-std::optional<BakedClip> bake_clip(const BakeRequest& request, bake::Options options,
-                                   const anim::Clip& clip, const std::vector<Bakeable>& rigs,
-                                   std::vector<gltf::ClipChange>& changes,
-                                   Diagnostics& diagnostics) {
-  BakedClip baked{clip.name, true, {}};
-  anim::Clip out{clip.name, clip.source_animation, {}};
-  std::set<int> controls, driven;
-  for (const Bakeable& bakeable : rigs) {
-    const bool concerned = std::any_of(
-        clip.channels.begin(), clip.channels.end(),
-        [&](const anim::Channel& channel) { return bakeable.controls.count(channel.node) != 0; });
-    if (!concerned) continue;
-    baked.passed_through = false;
-    report_locked_keys(request.file, *bakeable.rig, clip, diagnostics);
-    options.tolerance = request.tolerance_mm / 1000 * bakeable.rig->skeleton.character.unit;
+class ClipBaker {
+ public:
+  ClipBaker(const BakeRequest& request, const bake::Options& options,
+            const std::vector<Bakeable>& rigs)
+      : request_(request), options_(options), rigs_(rigs) {}
+
+  ClipResult bake(const anim::Clip& clip, Diagnostics& diagnostics) const {
+    ClipResult result;
+    result.baked.name = clip.name;
+    anim::Clip& out = result.change.clip;
+    out = {clip.name, clip.source_animation, {}};
+    std::set<int> controls, driven;
+    for (const Bakeable& bakeable : rigs_) {
+      if (!concerns(clip, bakeable.controls)) continue;
+      result.baked.passed_through = false;
+      report_locked_keys(request_.file, *bakeable.rig, clip, diagnostics);
+      if (!bake_rig(bakeable, clip, result, driven, diagnostics)) return {};
+      controls.insert(bakeable.controls.begin(), bakeable.controls.end());
+    }
+    result.good = true;
+    if (result.baked.passed_through) return result;
+    const std::size_t foreign = drop_channels(clip, controls, driven, result.change);
+    report_clip(request_, clip, result.baked, foreign, diagnostics);
+    // Where the rig stays, the next bake or update must know what it may make again.
+    for (anim::Channel& channel : out.channels) channel.baked = request_.keep_rig;
+    return result;
+  }
+
+ private:
+  bool bake_rig(const Bakeable& bakeable, const anim::Clip& clip, ClipResult& result,
+                std::set<int>& driven, Diagnostics& diagnostics) const {
+    const gltf::Rig& rig = *bakeable.rig;
+    bake::Options options = options_;
+    options.tolerance = request_.tolerance_mm / 1000 * rig.skeleton.character.unit;
     options.standings = bakeable.standings;
-    options.controls_play = request.keep_rig;
-    const auto joints = bake::bake(bakeable.rig->scene, bakeable.rig->nodes, clip, options,
-                                   baked.report, diagnostics);
-    if (!joints) return std::nullopt;
-    out.channels.insert(out.channels.end(), joints->channels.begin(), joints->channels.end());
-    controls.insert(bakeable.controls.begin(), bakeable.controls.end());
+    bake::Report report;
+    auto joints = bake::bake(rig.scene, rig.nodes, clip, options, report, diagnostics);
+    if (!joints) return false;
+    std::vector<anim::Channel>& channels = result.change.clip.channels;
+    std::move(joints->channels.begin(), joints->channels.end(), std::back_inserter(channels));
+    driven.insert(report.driven.begin(), report.driven.end());
+    add_report(report, rig, result.baked);
+    return true;
   }
-  if (baked.passed_through) return baked;
-  driven.insert(baked.report.driven.begin(), baked.report.driven.end());
-  std::vector<int> dropped;
-  std::size_t foreign = 0;
-  for (const anim::Channel& channel : clip.channels) {
-    const bool on_driven = driven.count(channel.node) != 0;
-    foreign += on_driven && !channel.baked ? 1 : 0;
-    const bool on_control = controls.count(channel.node) != 0 && !request.keep_rig;
-    if (on_driven || on_control || channel.baked) dropped.push_back(channel.source_channel);
+
+  /// Gives how many of them were not made by a bake, on driven joints.
+  std::size_t drop_channels(const anim::Clip& clip, const std::set<int>& controls,
+                            const std::set<int>& driven, gltf::ClipChange& change) const {
+    std::size_t foreign = 0;
+    for (const anim::Channel& channel : clip.channels) {
+      const bool on_driven = driven.count(channel.node) != 0;
+      foreign += on_driven && !channel.baked ? 1 : 0;
+      const bool on_control = controls.count(channel.node) != 0 && !request_.keep_rig;
+      if (on_driven || on_control || channel.baked)
+        change.dropped_channels.push_back(channel.source_channel);
+    }
+    return foreign;
   }
-  report_clip(request, clip, baked.report, foreign, diagnostics);
-  // Where the rig stays, the next bake or update must know what it may make again.
-  for (anim::Channel& channel : out.channels) channel.baked = request.keep_rig;
-  changes.push_back({std::move(out), std::move(dropped)});
-  return baked;
+
+  const BakeRequest& request_;
+  const bake::Options& options_;
+  const std::vector<Bakeable>& rigs_;
+};
+
+/// Bakes the chosen clips, over threads. Diagnostics come in the order of the clips.
+std::vector<ClipResult> bake_clips(const ClipBaker& baker, const std::vector<anim::Clip>& clips,
+                                   const std::set<std::size_t>& chosen, Threads* threads,
+                                   Diagnostics& diagnostics) {
+  const std::vector<std::size_t> list(chosen.begin(), chosen.end());
+  std::vector<ClipResult> results(clips.size());
+  std::vector<Diagnostics> reported(list.size(), Diagnostics(diagnostics.sources()));
+  Threads alone(1);
+  (threads ? *threads : alone).for_each(list.size(), [&](std::size_t i) {
+    Diagnostics own(diagnostics.sources());
+    results[list[i]] = baker.bake(clips[list[i]], own);
+    reported[i] = std::move(own);
+  });
+  for (const Diagnostics& one : reported) diagnostics.append(one);
+  return results;
 }
 
 /// A clip that was not asked for loses what it keyed on controls that are gone.
@@ -166,22 +237,27 @@ std::optional<Baked> bake_file(const BakeRequest& request, const std::string& ou
   if (!options || !check_output_name(out, diagnostics)) return std::nullopt;
   const auto file = gltf::open(request.file, diagnostics);
   if (!file) return std::nullopt;
-  const auto rigs = gltf::read_rigs(*file, diagnostics);
+  const auto slim = gltf::read_slim(*file, diagnostics);
+  if (!slim) return std::nullopt;
+  const auto rigs = gltf::read_rigs(*file, diagnostics, gltf::Origins::templates, &*slim);
   if (!rigs) return std::nullopt;
+  Baked result;
   if (rigs->empty()) {
+    if (request.skip_without_rig) return result;
     diagnostics.report(codes::kNoRig, Place(request.file), "the file has no rig to bake");
     return std::nullopt;
   }
+  result.has_rig = true;
   for (const gltf::Rig& rig : *rigs) check_evaluates(*file, rig, diagnostics);
-  const auto clips = gltf::read_clips(*file, diagnostics);
+  const auto clips = gltf::read_clips(*file, diagnostics, &*slim);
   if (!clips || !diagnostics.ok()) return std::nullopt;
   const auto chosen = choose_clips(request, clips->clips, diagnostics);
   if (!chosen) return std::nullopt;
 
-  const auto bakeable = look_at_rigs(*file, *rigs, diagnostics);
-  if (!bakeable) return std::nullopt;
-
-  Baked result;
+  const std::vector<Bakeable> bakeable = look_at_rigs(*slim, *rigs);
+  const ClipBaker baker(request, *options, bakeable);
+  std::vector<ClipResult> baked =
+      bake_clips(baker, clips->clips, *chosen, request.threads, diagnostics);
   gltf::Patch patch(*file);
   std::vector<gltf::ClipChange> changes;
   std::set<int> gone;
@@ -191,9 +267,9 @@ std::optional<Baked> bake_file(const BakeRequest& request, const std::string& ou
       leave_out(clips->clips[i], gone, changes);
       continue;
     }
-    auto baked = bake_clip(request, *options, clips->clips[i], *bakeable, changes, diagnostics);
-    if (!baked) return std::nullopt;
-    result.clips.push_back(std::move(*baked));
+    if (!baked[i].good) return std::nullopt;
+    if (!baked[i].baked.passed_through) changes.push_back(std::move(baked[i].change));
+    result.clips.push_back(std::move(baked[i].baked));
   }
   gltf::write_clips(patch, *file, changes);
   if (!write_output(patch, *file, out, result.bytes, diagnostics)) return std::nullopt;

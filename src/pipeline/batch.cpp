@@ -10,7 +10,6 @@
 #include <mutex>
 #include <new>
 #include <system_error>
-#include <thread>
 
 #include "base/codes.h"
 #include "base/files.h"
@@ -24,7 +23,6 @@ namespace {
 
 using Outcome = FileResult::Outcome;
 
-constexpr unsigned kMostJobs = 256;
 constexpr std::size_t kMostFailuresShown = 20;
 
 void refuse(std::string message, std::string hint, Diagnostics& diagnostics) {
@@ -151,7 +149,7 @@ class Collector {
   BatchListener* listener_;
 };
 
-/// The threads: each takes the next file until there is none.
+/// Does the work for each file, over threads.
 class Runner {
  public:
   Runner(const BatchRequest& request, const Work& work, const std::vector<FileWork>& works,
@@ -159,34 +157,24 @@ class Runner {
       : request_(request), work_(work), works_(works), sources_(sources), collector_(collector) {}
 
   void run() {
-    unsigned jobs = request_.jobs != 0 ? request_.jobs : std::thread::hardware_concurrency();
-    jobs = std::clamp(jobs, 1u, kMostJobs);
-    std::vector<std::thread> threads;
-    try {
-      while (threads.size() + 1 < std::min<std::size_t>(jobs, works_.size()))
-        threads.emplace_back([this] { run_thread(); });
-    } catch (const std::system_error&) {
-      // No more threads to be had: those that are there do it all.
-    }
-    run_thread();
-    for (std::thread& thread : threads) thread.join();
+    Threads own(request_.threads ? 1 : request_.jobs);
+    Threads& threads = request_.threads ? *request_.threads : own;
+    threads.for_each(works_.size(), [this](std::size_t index) {
+      if (!stopped()) run_one(index);
+    });
   }
 
  private:
   bool stopped() const { return request_.stop && request_.stop->load(); }
 
-  void run_thread() {
-    while (!stopped()) {
-      const std::size_t index = next_++;
-      if (index >= works_.size()) return;
-      Diagnostics diagnostics(sources_);
-      const FileResult result = run_one(works_[index], diagnostics);
-      collector_.add(index, make_entry(works_[index], result, diagnostics),
-                     render(diagnostics, request_.colour));
-    }
+  void run_one(std::size_t index) {
+    Diagnostics diagnostics(sources_);
+    const FileResult result = result_of(works_[index], diagnostics);
+    collector_.add(index, make_entry(works_[index], result, diagnostics),
+                   render(diagnostics, request_.colour));
   }
 
-  FileResult run_one(const FileWork& work, Diagnostics& diagnostics) {
+  FileResult result_of(const FileWork& work, Diagnostics& diagnostics) {
     const bool mirrors = request_.writes && !request_.out_dir.empty();
     if (mirrors && !make_folder_of(work.output, diagnostics)) return {};
     try {
@@ -203,7 +191,6 @@ class Runner {
   const std::vector<FileWork>& works_;
   const Sources& sources_;
   Collector& collector_;
-  std::atomic<std::size_t> next_{0};
 };
 
 /// The batch as it is when the entries of `works` are known as far as given.

@@ -15,6 +15,7 @@
 #include "base/bytes.h"
 #include "base/diagnostics.h"
 #include "base/files.h"
+#include "base/threads.h"
 
 namespace rigc::pipeline {
 
@@ -50,6 +51,7 @@ struct BatchRequest {
   bool writes = true;                       ///< false: the work only looks; no folders are made
   bool colour = false;                      ///< of diagnostics
   unsigned jobs = 0;                        ///< files at a time; 0: as many as there are processors
+  Threads* threads = nullptr;               ///< instead of `jobs`: those that the work loops with
   const Sources* sources = nullptr;         ///< what spans of all files' diagnostics point into
   const std::atomic<bool>* stop = nullptr;  ///< true: no further file is begun
 };

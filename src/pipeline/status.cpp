@@ -4,19 +4,15 @@
 #include "pipeline/status.h"
 
 #include <algorithm>
-#include <atomic>
 #include <new>
-#include <system_error>
-#include <thread>
 
+#include "base/threads.h"
 #include "pipeline/batch_codes.h"
 #include "pipeline/batch_inputs.h"
 #include "templates/library.h"
 
 namespace rigc::pipeline {
 namespace {
-
-constexpr std::size_t kMostJobs = 64;
 
 void read_file_status(const Installed& installed, FileStatus& out, Diagnostics& diagnostics) try {
   auto rigs = gltf::read_rig_summaries(out.file, diagnostics);
@@ -30,11 +26,6 @@ void read_file_status(const Installed& installed, FileStatus& out, Diagnostics& 
   // One file that is too much must not end the others.
   out.rigs.clear();
   diagnostics.report(codes::kOutOfMemory, Place(out.file), "there is not enough memory");
-}
-
-std::size_t job_count(std::size_t wanted, std::size_t files) {
-  const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
-  return std::min({wanted == 0 ? processors : wanted, kMostJobs, files});
 }
 
 }  // namespace
@@ -51,19 +42,9 @@ std::optional<std::vector<FileStatus>> status(const StatusRequest& request,
   std::vector<FileStatus> files;
   for (BatchInput& input : *inputs) files.push_back({std::move(input.path), false, {}});
   std::vector<Diagnostics> reported(files.size());
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < files.size(); i = next++)
-      read_file_status(installed, files[i], reported[i]);
-  };
-  std::vector<std::thread> others;
-  try {
-    while (others.size() + 1 < job_count(request.jobs, files.size())) others.emplace_back(work);
-  } catch (const std::system_error&) {
-    // No more threads to be had: those that are there do it all.
-  }
-  work();
-  for (std::thread& other : others) other.join();
+  Threads threads(static_cast<unsigned>(request.jobs));
+  threads.for_each(files.size(),
+                   [&](std::size_t i) { read_file_status(installed, files[i], reported[i]); });
   for (const Diagnostics& one : reported) diagnostics.append(one);
   return files;
 }

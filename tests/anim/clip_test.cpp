@@ -154,5 +154,33 @@ TEST_CASE("anim clip: times of all channels") {
   CHECK(anim::last_time(clip) == 2);
 }
 
+TEST_CASE("anim sampler: the same numbers as sample(), whatever the order of times") {
+  Random random(12);
+  for (const auto kind : {Interpolation::step, Interpolation::linear, Interpolation::cubic}) {
+    for (const bool rotation : {false, true}) {
+      std::vector<float> times, values;
+      for (int i = 0; i < 20; ++i) {
+        times.push_back(static_cast<float>(i) * 0.1f);
+        for (int n = 0; n < (kind == Interpolation::cubic ? 12 : 4); ++n)
+          values.push_back(static_cast<float>(random.between(-1, 1)));
+      }
+      const Curve c = curve(kind, 4, times, values);
+      anim::Sampler rising(c, rotation), jumping(c, rotation);
+      const auto check = [&](anim::Sampler& sampler, double seconds) {
+        double wanted[4], got[4];
+        anim::sample(c, rotation, seconds, wanted);
+        sampler.at(seconds, got);
+        for (int n = 0; n < 4; ++n) CHECK(got[n] == wanted[n]);
+      };
+      for (int i = -10; i < 250; ++i) check(rising, i * 0.01);
+      for (const float time : times) check(rising, static_cast<double>(time));
+      for (int i = 0; i < 100; ++i) check(jumping, random.between(-1, 3));
+    }
+  }
+  const Curve one = curve(Interpolation::linear, 1, {3}, {5});
+  CHECK(anim::Sampler(one, false).is_constant());
+  CHECK_FALSE(anim::Sampler(curve(Interpolation::linear, 1, {3, 4}, {5, 5}), false).is_constant());
+}
+
 }  // namespace
 }  // namespace rigc

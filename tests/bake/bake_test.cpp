@@ -65,7 +65,7 @@ double bake_error(const Arm& arm, const anim::Clip& clip, const anim::Clip& out,
                   const std::vector<Standing>& standings) {
   double largest = 0;
   for (int frame = 0; frame <= 30; ++frame) {
-    const double seconds = frame / 30.0;
+    const double seconds = static_cast<double>(static_cast<float>(frame / 30.0));
     const auto truth = evaluated(arm.stage, clip, seconds);
     const auto shown = played(arm.stage, standings, out, seconds);
     for (const NodeId id : {arm.root, arm.upper, arm.lower, arm.hand})
@@ -92,7 +92,8 @@ TEST_CASE("bake: the joints of the baked clip do what the rig does") {
   CHECK(bake_error(arm, clip, out, as_scene(arm.stage)) < 2e-6);
   CHECK(report.frames == 31);
   CHECK(report.channels == out.channels.size());
-  CHECK(report.shear == 0);
+  CHECK(report.shear.relative == 0);
+  CHECK(report.shear.distance == 0);
   CHECK(report.reduction_error == 0);
   CHECK(report.driven ==
         std::vector<int>{static_cast<int>(arm.upper.index), static_cast<int>(arm.lower.index)});
@@ -219,7 +220,8 @@ TEST_CASE("bake: joints that stand otherwise in their file are where the rig has
     standing(arm.lower).between = math::compose({random.vector(), random.rotation(), {2, 2, 2}});
     Report report;
     const anim::Clip out = baked(arm.stage, clip, options, report);
-    CHECK(report.shear < 1e-9);
+    CHECK(report.shear.relative < 1e-9);
+    CHECK(report.shear.distance < 1e-9);
     double largest = 0;
     for (int frame = 0; frame <= 30; ++frame) {
       const auto truth = evaluated(arm.stage, clip, frame / 30.0);
@@ -273,8 +275,97 @@ TEST_CASE("bake: what cannot be expressed is reported as shear") {
   options.standings = as_scene(arm.stage);
   options.standings[arm.lower.index].between = math::compose({{}, {}, {1, 3, 1}});
   Report report;
-  baked(arm.stage, clip, options, report);
-  CHECK(report.shear > 0.01);
+  const anim::Clip out = baked(arm.stage, clip, options, report);
+  CHECK(report.shear.relative > 0.01);
+  REQUIRE(report.shear.joint == arm.lower);
+  // Points at the length of the limb, 0.5 from the joint before it, are as far off as it says.
+  double largest = 0, when = 0;
+  for (int frame = 0; frame <= 30; ++frame) {
+    const double seconds = static_cast<double>(static_cast<float>(frame / 30.0));
+    const auto truth = evaluated(arm.stage, clip, seconds);
+    const auto shown = played(arm.stage, options.standings, out, seconds);
+    const math::Affine& a = shown[arm.lower.index];
+    const math::Affine& b = truth[arm.lower.index];
+    for (const auto axis : {&math::Mat3::x, &math::Mat3::y, &math::Mat3::z}) {
+      const double off = 0.5 * math::length(a.linear.*axis - b.linear.*axis);
+      if (off > largest + 1e-6) when = seconds;
+      largest = std::max(largest, off);
+    }
+  }
+  CHECK(report.shear.distance == doctest::Approx(largest).epsilon(1e-4));
+  CHECK(report.shear.seconds == when);
+}
+
+TEST_CASE("bake: on a grid a step is at the very frame of its key") {
+  const Arm arm;
+  anim::Clip clip;
+  std::vector<float> times, values;
+  for (int i = 0; i <= 30; ++i) {  // 7 / 30 and others are no floats
+    times.push_back(static_cast<float>(i / 30.0));
+    values.insert(values.end(), {static_cast<float>(i), 0, 0});
+  }
+  clip.channels.push_back(
+      channel(arm.upper_control, Path::translation, times, values, anim::Interpolation::step));
+  Report report;
+  const anim::Clip out = baked(arm.stage, clip, {}, report);
+  const anim::Channel* moved = find(out, arm.upper, Path::translation);
+  REQUIRE(moved);
+  REQUIRE(*moved->curve.times == times);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto shown = played(arm.stage, as_scene(arm.stage), out, static_cast<double>(times[i]));
+    const auto truth = evaluated(arm.stage, clip, static_cast<double>(times[i]));
+    CHECK(difference(shown[arm.upper.index], truth[arm.upper.index]) < 1e-5);
+  }
+}
+
+TEST_CASE("bake: the turning of a joint alone is reduced and measured too") {
+  Stage stage;
+  const NodeId joint = stage.joint("door", {}, {});
+  const NodeId control = stage.control_for(joint);
+  anim::Clip clip;
+  clip.channels.push_back(
+      channel(control, Path::rotation, {0, 0.5f, 1},
+              joined({rotation({0, 1, 0}, 0), rotation({0, 1, 0}, 1), rotation({0, 1, 0}, 0)})));
+  Options options;
+  options.tolerance = 0.01;
+  Report report;
+  const anim::Clip out = baked(stage, clip, options, report);
+  REQUIRE(find(out, joint, Path::rotation));
+  CHECK(find(out, joint, Path::rotation)->curve.times->size() == 3);
+  for (const double seconds : {0.2, 0.5, 0.8}) {
+    const auto truth = evaluated(stage, clip, seconds);
+    const auto shown = played(stage, as_scene(stage), out, seconds);
+    CHECK(difference(truth[joint.index], shown[joint.index]) <= 0.01);
+  }
+}
+
+TEST_CASE("bake: every number of threads gives the same clip, and reports the same") {
+  const Arm arm;
+  const anim::Clip clip = wave(arm);
+  Options options;
+  options.fps = 700;  // many ranges
+  options.standings = as_scene(arm.stage);
+  options.standings[arm.lower.index].between = math::compose({{}, {}, {1, 1.2, 1}});
+  for (const double tolerance : {0.0, 1e-3}) {
+    options.tolerance = tolerance;
+    std::vector<anim::Clip> clips;
+    std::vector<Report> reports;
+    for (const unsigned jobs : {1u, 2u, 3u, 8u}) {
+      Threads threads(jobs);
+      options.threads = &threads;
+      clips.push_back(baked(arm.stage, clip, options, reports.emplace_back()));
+    }
+    for (std::size_t i = 1; i < clips.size(); ++i) {
+      CHECK(reports[i].shear.distance == reports[0].shear.distance);
+      CHECK(reports[i].shear.seconds == reports[0].shear.seconds);
+      CHECK(reports[i].reduction_error == reports[0].reduction_error);
+      REQUIRE(clips[i].channels.size() == clips[0].channels.size());
+      for (std::size_t c = 0; c < clips[i].channels.size(); ++c) {
+        CHECK(clips[i].channels[c].curve.values == clips[0].channels[c].curve.values);
+        CHECK(*clips[i].channels[c].curve.times == *clips[0].channels[c].curve.times);
+      }
+    }
+  }
 }
 
 TEST_CASE("bake: the same clip gives the same bytes") {

@@ -85,5 +85,55 @@ TEST_CASE("eval evaluate: frames in blocks, the last one short") {
   }
 }
 
+TEST_CASE("eval evaluate: ranges of frames over threads, each frame once and on its own lane") {
+  SceneBuilder b;
+  const auto node = b.transform("node");
+  Diagnostics diagnostics;
+  const auto program =
+      eval::compile(b.scene,
+                    {{{node, transform::kTranslate}},
+                     {b.formula("$0 + 1", {{node, transform::kTranslate, -1, 0}})}},
+                    diagnostics);
+  REQUIRE(program);
+  struct Worker {
+    eval::Instance& instance;
+    std::vector<double>& got;
+    void set(std::size_t first, int lanes) {
+      for (int lane = 0; lane < lanes; ++lane)
+        instance.input(0)[lane] = static_cast<double>(first) + lane;
+    }
+    void take(std::size_t first, int lanes) {
+      for (int lane = 0; lane < lanes; ++lane)
+        got[first + static_cast<std::size_t>(lane)] += instance.output(0)[lane];
+    }
+  };
+  for (const unsigned jobs : {1u, 3u})
+    for (const std::size_t count :
+         {std::size_t{0}, std::size_t{7}, eval::kRange, eval::kRange + 1, 5 * eval::kRange - 3}) {
+      Threads threads(jobs);
+      std::vector<double> got(count, 0.0);
+      eval::for_ranges(*program, count, threads, [&](eval::Instance& instance, std::size_t) {
+        return Worker{instance, got};
+      });
+      for (std::size_t i = 0; i < count; ++i) CHECK(got[i] == static_cast<double>(i) + 1);
+    }
+}
+
+TEST_CASE("eval evaluate: what no input reaches does not vary") {
+  SceneBuilder b;
+  const auto moved = b.transform("moved"), still = b.transform("still");
+  const auto below = b.transform("below", moved);
+  Diagnostics diagnostics;
+  const auto program = eval::compile(b.scene,
+                                     {{{moved, transform::kTranslate}},
+                                      {{moved, transform::kTranslate},
+                                       {moved, transform::kScale},
+                                       {still, transform::kTranslate},
+                                       {below, transform::kWorld}}},
+                                     diagnostics);
+  REQUIRE(program);
+  CHECK(eval::varying_outputs(*program) == std::vector<bool>{true, false, false, true});
+}
+
 }  // namespace
 }  // namespace rigc

@@ -64,6 +64,32 @@ Shape shape_of(Op op, Random& random) {
       return {{3}, 4, {}};
     case Op::to_euler:
       return {{4}, 3, {}};
+    case Op::compose_rigid:
+      return {{3, 4}, 12, {}};
+    case Op::compose_under: {
+      Shape shape{{3, 4}, 12, {1, -2, 0.5}};
+      append(shape.data, random.rotation());
+      return shape;
+    }
+    case Op::hang: {
+      Shape shape{{12, 12}, 12, {}};
+      append(shape.data, math::compose(random.trs(false)));
+      return shape;
+    }
+    case Op::hang_straight:
+      return {{12, 12}, 12, {1, -2, 0.5}};
+    case Op::place:
+      return {{12, 12, 3}, 12, {}};
+    case Op::blend: {
+      Shape shape{{12, 1, 12, 1}, 12, {2}};
+      for (int i = 0; i < 2; ++i) append(shape.data, math::compose(random.trs(false)));
+      return shape;
+    }
+    case Op::aim_world: {
+      Shape shape{{12, 3, 12, 3, 12, 1, 12, 1}, 12, {2, static_cast<double>(random.below(3))}};
+      append(shape.data, math::compose(random.trs(false)));
+      return shape;
+    }
     case Op::constraint: {
       Shape shape{{12, 12, 1, 12, 1}, 10, {2, random.chance(50) ? 1.0 : 0.0}};
       for (int i = 0; i < 2; ++i) append(shape.data, math::compose(random.trs(false)));

@@ -6,6 +6,7 @@
 #include "file_helpers.h"
 #include "gltf/rig.h"
 #include "gltf/rig_codes.h"
+#include "gltf/slim.h"
 #include "rig_helpers.h"
 
 using namespace rigc;
@@ -232,16 +233,21 @@ TEST_CASE("gltf rig_read: standings are what the file shows") {
   const File file = written(model, rig, "rig_standing");
   const auto rigs = read_rigs(file, diagnostics);
   REQUIRE(rigs);
-  const auto places = standings(file, (*rigs)[0], diagnostics);
-  REQUIRE(places);
+  const auto slim = read_slim(file, diagnostics);
+  REQUIRE(slim);
+  const std::vector<Standing> places = standings(*slim, (*rigs)[0]);
   const scene::NodeId base = joint_named(rig, "base"), tip = joint_named(rig, "tip");
   // In the scene the base hangs under a helper; in the file it is a root.
-  CHECK_FALSE((*places)[base.index].base.valid());
-  CHECK((*places)[base.index].between == math::Affine{});
-  CHECK((*places)[base.index].local.translation == math::Vec3{0, 2, 0});
-  CHECK((*places)[tip.index].base == base);
-  CHECK((*places)[tip.index].between.origin == math::Vec3{0, 0.5, 0});
-  CHECK((*places)[kTipControl.index].base == rig.scene[kTipControl].parent);
+  CHECK_FALSE(places[base.index].base.valid());
+  CHECK(places[base.index].between == math::Affine{});
+  CHECK(places[base.index].local.translation == math::Vec3{0, 2, 0});
+  CHECK(places[tip.index].base == base);
+  CHECK(places[tip.index].between.origin == math::Vec3{0, 0.5, 0});
+  CHECK(places[kTipControl.index].base == rig.scene[kTipControl].parent);
+  // "between" is nobody's of the rig and moves with the base.
+  REQUIRE(places[base.index].points.size() == 1);
+  CHECK(places[base.index].points[0] == math::Vec3{0, 0.5, 0});
+  CHECK(places[tip.index].points.empty());
 }
 
 TEST_CASE("gltf rig_read: damage anywhere in RIGC_rig never crashes") {
