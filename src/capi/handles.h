@@ -3,8 +3,13 @@
 // Test: tests/capi
 #pragma once
 
-#include <algorithm>
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#else
 #include <cfenv>
+#endif
+
+#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -44,15 +49,32 @@ namespace rigc::capi {
 /// what a caller may have changed. As it was when destroyed.
 class FloatEnvironment {
  public:
+#ifdef __SSE2__
+  // Many times as fast as <cfenv>, which also saves what no double goes through.
+  FloatEnvironment() : before_(_mm_getcsr()) {
+    if ((before_ & ~kRaised) != kDefault) _mm_setcsr(kDefault);
+  }
+  ~FloatEnvironment() {
+    if ((before_ & ~kRaised) != kDefault) _mm_setcsr(before_);
+  }
+
+ private:
+  static constexpr unsigned kRaised = 0x3f;     // what has happened, not what is to happen
+  static constexpr unsigned kDefault = 0x1f80;  // everything masked, to nearest, nothing flushed
+  unsigned before_;
+#else
   FloatEnvironment() {
     std::fegetenv(&before_);
     std::fesetenv(FE_DFL_ENV);
   }
   ~FloatEnvironment() { std::fesetenv(&before_); }
-  FloatEnvironment(const FloatEnvironment&) = delete;
 
  private:
   std::fenv_t before_;
+#endif
+ public:
+  FloatEnvironment(const FloatEnvironment&) = delete;
+  FloatEnvironment& operator=(const FloatEnvironment&) = delete;
 };
 
 /// Runs what may throw: nothing leaves it but a status.

@@ -22,15 +22,17 @@ std::string folder() {
   return path;
 }
 
-/// Builds the biped and gives the bytes of its file.
-std::string build_biped(const std::string& out, const std::string& model) {
+const std::string kSource = RIGC_SOURCE_DIR;
+
+/// Builds a template and gives the bytes of the file.
+std::string build(const std::string& template_file, const std::string& out,
+                  const std::string& model = {}, const std::string& map = {}) {
   Diagnostics diagnostics;
   pipeline::BuildRequest request;
-  request.template_file = std::string(RIGC_SOURCE_DIR) + "/templates/biped.yaml";
-  request.paths.templates = {std::string(RIGC_SOURCE_DIR) + "/templates"};
+  request.template_file = template_file;
+  request.paths.templates = {kSource + "/templates"};
   request.model = model;
-  if (!model.empty())
-    request.map = std::string(RIGC_SOURCE_DIR) + "/tests/maps/robot_expressive.yaml";
+  request.map = map;
   const std::string path = folder() + "/" + out;
   REQUIRE_MESSAGE(pipeline::build(request, path, diagnostics), render(diagnostics, false));
   // For the Khronos validator.
@@ -43,19 +45,36 @@ std::string build_biped(const std::string& out, const std::string& model) {
 }  // namespace
 
 const std::string& biped() {
-  static const std::string bytes = build_biped("biped.glb", "");
+  static const std::string bytes = build(kSource + "/templates/biped.yaml", "biped.glb");
   return bytes;
 }
 
-std::string biped_text() { return build_biped("biped.gltf", ""); }
+const std::string& tower() {
+  static const std::string bytes = [] {
+    std::string text = "rigc: 1\nname: tower\nversion: 1\njoints:\n";
+    for (int i = 0; i < 12; ++i) {
+      text += "  - name: j" + std::to_string(i) + "\n";
+      if (i > 0) text += "    parent: j" + std::to_string(i - 1) + "\n";
+      text += "    at: [0, " + std::to_string(i) + ", 0]\n    local: tower\n    label: j" +
+              std::to_string(i) + "\n    tags: [{command: control, with: {scale: true}}]\n";
+    }
+    Diagnostics diagnostics;
+    REQUIRE(write_file(folder() + "/tower.yaml", {Bytes(text)}, diagnostics));
+    return build(folder() + "/tower.yaml", "tower.glb");
+  }();
+  return bytes;
+}
+
+std::string biped_text() { return build(kSource + "/templates/biped.yaml", "biped.gltf"); }
 
 const std::string& biped_on_character() {
   static const std::string bytes = [] {
     const char* given = std::getenv("RIGC_CORPUS");
-    const std::string model =
-        (given ? std::string(given) : std::string(RIGC_SOURCE_DIR) + "/../shared/corpus") +
-        "/gltftransform_RobotExpressive_quant/RobotExpressive.glb";
-    if (file_exists(model)) return build_biped("robot.glb", model);
+    const std::string model = (given ? std::string(given) : kSource + "/../shared/corpus") +
+                              "/gltftransform_RobotExpressive_quant/RobotExpressive.glb";
+    if (file_exists(model))
+      return build(kSource + "/templates/biped.yaml", "robot.glb", model,
+                   kSource + "/tests/maps/robot_expressive.yaml");
     MESSAGE("corpus file not here, part of the test does not run: " << model);
     return std::string();
   }();

@@ -29,6 +29,8 @@ const std::string& biped();
 /// The biped on a character whose bones stand otherwise in their file than in the rig; empty where
 /// there is no corpus.
 const std::string& biped_on_character();
+/// Twelve controls, each under the one before, that may be scaled.
+const std::string& tower();
 /// The text alone of the biped as a .gltf, whose buffers are files.
 std::string biped_text();
 

@@ -3,6 +3,7 @@
 // else happens.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -82,6 +83,24 @@ TEST_CASE("capi hostile: damaged bytes are refused, or are a rig that can be eva
     rigc_instance_get_worlds(one.get(), 0, matrices.data());
     for (const double number : matrices) CHECK(std::isfinite(number));
   }
+}
+
+TEST_CASE("capi hostile: a rig that cannot be evaluated is refused with the line that made it") {
+  // The first joint of the skeleton follows itself.
+  std::string text = biped_text();
+  const std::string connection = R"("inputs":[["translate",)";
+  const std::size_t at = text.find(connection) + connection.size();
+  REQUIRE(at > connection.size());
+  text.replace(at, text.find(',', at) - at, "0");
+  const RigHandle rig = open(text);
+  const DiagnosticsHandle diagnostics(rigc_diagnostics_create());
+  rigc_program* program = nullptr;
+  REQUIRE(rigc_program_create(rig.get(), nullptr, diagnostics.get(), &program) == RIGC_ERROR_RIG);
+  CHECK(program == nullptr);
+  auto first = sized<rigc_diagnostic>();
+  REQUIRE(rigc_diagnostics_get(diagnostics.get(), 0, &first) == RIGC_OK);
+  CHECK(first.code == 560);
+  CHECK(std::string(first.place).find(".yaml:") != std::string::npos);
 }
 
 TEST_CASE("capi hostile: a file without a rig, or without that many") {
@@ -282,42 +301,53 @@ TEST_CASE("capi hostile: quaternions of any length are rotations") {
   const RigHandle rig = open(biped());
   const ProgramHandle all = program(rig.get());
   const InstanceHandle one = instance(all.get());
-  const std::uint32_t hand = control_of(rig.get(), "arm_l", "fk");
+  const std::uint32_t head = control_of(rig.get(), "head", "control");
   const std::size_t numbers = rigc_program_joint_count(all.get()) * 16;
   const auto worlds = [&](double x, double y, double z, double w) {
     const double q[] = {x, y, z, w};
     std::vector<double> out(numbers);
-    REQUIRE(rigc_instance_set(one.get(), 0, hand, RIGC_ROTATION, q) == RIGC_OK);
+    REQUIRE(rigc_instance_set(one.get(), 0, head, RIGC_ROTATION, q) == RIGC_OK);
     REQUIRE(rigc_instance_run(one.get()) == RIGC_OK);
     REQUIRE(rigc_instance_get_worlds(one.get(), 0, out.data()) == RIGC_OK);
     return out;
   };
   CHECK(worlds(0, 0, 0, 0) == worlds(0, 0, 0, 1));
+  CHECK(worlds(0, 0, 0, 0) != worlds(0, 0, 0.6, 0.8));
   CHECK(worlds(0, 0, 3, 4) == worlds(0, 0, 0.6, 0.8));
-  CHECK(worlds(0, 0, 3e-20, 4e-20) == worlds(0, 0, 0.6, 0.8));
+  CHECK(worlds(0, 0, 0x3p-60, 0x4p-60) == worlds(0, 0, 0.6, 0.8));
 }
 
 TEST_CASE("capi hostile: values too large for their products give zeros and a status, no NaN") {
-  // Controls one under another, all as large as they may be: so large that no double has the joint.
-  const RigHandle rig = open(biped());
+  // Twelve controls one under another, each as large as it may be.
+  const RigHandle rig = open(tower());
   const ProgramHandle all = program(rig.get());
   const InstanceHandle one = instance(all.get());
-  std::vector<double> row(rigc_program_input_width(all.get()), 1e30);
-  const std::size_t numbers = rigc_program_joint_count(all.get()) * 16;
-  std::vector<double> matrices(numbers, 5);
-  std::vector<float> floats(numbers, 5);
-  const rigc_status status = rigc_instance_evaluate(one.get(), 1, row.data(), matrices.data());
-  CHECK((status == RIGC_OK || status == RIGC_ERROR_NOT_FINITE));
+  std::vector<double> row;
+  for (std::uint32_t i = 0; i < rigc_program_input_count(all.get()); ++i) {
+    rigc_channel at = {};
+    REQUIRE(rigc_program_get_input(all.get(), i, &at, nullptr) == RIGC_OK);
+    const rigc_channel_info info = channel_at(rig.get(), at.control, at.channel);
+    for (std::uint32_t c = 0; c < info.width; ++c)
+      row.push_back(at.channel == RIGC_SCALE ? 1e30 : info.value[c]);
+  }
+  const std::uint32_t joints = rigc_program_joint_count(all.get());
+  std::vector<double> matrices(std::size_t{16} * joints, 5);
+  std::vector<float> floats(matrices.size(), 5);
+  CHECK(rigc_instance_evaluate(one.get(), 1, row.data(), matrices.data()) == RIGC_ERROR_NOT_FINITE);
+  CHECK(std::string(rigc_instance_message(one.get())).find("is not finite") != std::string::npos);
+  CHECK(matrices[0] == 1e30);
+  CHECK(std::count(matrices.end() - 16, matrices.end(), 0) == 16);
   for (const double number : matrices) CHECK(std::isfinite(number));
-  rigc_instance_evaluate_f(one.get(), 1, row.data(), floats.data());
+  CHECK(rigc_instance_evaluate_f(one.get(), 1, row.data(), floats.data()) == RIGC_ERROR_NOT_FINITE);
+  CHECK(floats[0] == 1e30f);
   for (const float number : floats) CHECK(std::isfinite(number));
   rigc_trs local;
-  for (std::uint32_t i = 0; i < rigc_program_joint_count(all.get()); ++i) {
-    std::uint32_t joint = 0;
-    REQUIRE(rigc_program_get_joint(all.get(), i, &joint) == RIGC_OK);
-    rigc_instance_get_local(one.get(), 0, joint, &local);
+  rigc_status last = RIGC_OK;
+  for (std::uint32_t joint = 0; joint < joints; ++joint) {
+    last = rigc_instance_get_local(one.get(), 0, joint, &local);
     CHECK(std::isfinite(local.translation[0] + local.rotation[3] + local.scale[2]));
   }
+  CHECK(last == RIGC_ERROR_NOT_FINITE);
 }
 
 TEST_CASE("capi hostile: every status has a text") {
