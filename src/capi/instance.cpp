@@ -24,11 +24,18 @@ math::Quat unit(const double* n) {
   return std::abs(math::dot(q, q) - 1) <= kUnit ? q : math::normalised(q);
 }
 
+/// Whether no number is NaN or beyond a bound. Without branches, for vectors.
+bool within(const double* numbers, std::size_t count, double most) {
+  unsigned outside = 0;
+  for (std::size_t i = 0; i < count; ++i) outside |= !(std::abs(numbers[i]) <= most) ? 1u : 0u;
+  return outside == 0;
+}
+
 /// A 4 x 4 matrix by its columns; false where it does not fit, and all zeros then.
 template <class Number>
 bool copy_matrix(const double (&n)[12], Number* matrix) {
   constexpr double kMost = std::numeric_limits<Number>::max();
-  const bool fits = std::all_of(n, n + 12, [](double x) { return std::abs(x) <= kMost; });
+  const bool fits = within(n, 12, kMost);
   for (std::size_t c = 0; c < 4; ++c) {
     for (std::size_t r = 0; r < 3; ++r)
       matrix[4 * c + r] = fits ? static_cast<Number>(n[3 * c + r]) : Number(0);
@@ -107,15 +114,16 @@ rigc_status Instance::set(std::uint32_t frame, rigc_channel channel, const doubl
 rigc_status Instance::set_rows(std::size_t frames, const double* values) {
   if (frames > kFrames) return check_frame(static_cast<std::uint32_t>(frames - 1));
   const std::vector<Input>& inputs = program_.inputs;
-  for (std::size_t frame = 0; frame < frames; ++frame) {
+  const bool good = within(values, frames * program_.input_width, kLargest);
+  for (std::size_t frame = 0; !good && frame < frames; ++frame) {
     for (const Input& input : inputs) {
       const rigc_status status =
           check_values(input, values + frame * program_.input_width + input.offset);
       if (status != RIGC_OK) return status;
     }
   }
-  for (std::size_t frame = 0; frame < frames; ++frame) {
-    for (std::size_t i = 0; i < inputs.size(); ++i)
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    for (std::size_t frame = 0; frame < frames; ++frame)
       put(i, frame, frame + 1, values + frame * program_.input_width + inputs[i].offset);
   }
   return RIGC_OK;
@@ -152,6 +160,30 @@ rigc_status Instance::read(std::size_t output, std::uint32_t frame, Number* matr
   if (copy_matrix(n, matrix)) return RIGC_OK;
   return fail(RIGC_ERROR_NOT_FINITE, "the matrix of joint %u is not finite in frame %u",
               program_.joints[output], frame);
+}
+
+template <class Number>
+rigc_status Instance::read_block(std::size_t output, std::size_t frames, std::size_t stride,
+                                 Number* matrices) {
+  const double* rows = instance_.output(output);
+  rigc_status result = RIGC_OK;
+  if (!within(rows, 12 * kFrames, std::numeric_limits<Number>::max())) {
+    for (std::size_t frame = 0; frame < frames; ++frame) {
+      const rigc_status one =
+          read(output, static_cast<std::uint32_t>(frame), matrices + frame * stride);
+      if (one != RIGC_OK) result = one;
+    }
+    return result;
+  }
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    Number* matrix = matrices + frame * stride;
+    for (std::size_t c = 0; c < 4; ++c) {
+      for (std::size_t r = 0; r < 3; ++r)
+        matrix[4 * c + r] = static_cast<Number>(rows[(3 * c + r) * kFrames + frame]);
+      matrix[4 * c + 3] = c == 3 ? Number(1) : Number(0);
+    }
+  }
+  return result;
 }
 
 int Instance::output_of(std::uint32_t joint, rigc_status& status) {
@@ -210,9 +242,8 @@ rigc_status Instance::evaluate(std::size_t frames, const double* inputs, Number*
     const rigc_status set = set_rows(count, inputs + first * program_.input_width);
     if (set != RIGC_OK) return set;
     instance_.run();
-    for (std::size_t frame = 0; frame < count; ++frame) {
-      const rigc_status got =
-          get_worlds(static_cast<std::uint32_t>(frame), matrices + (first + frame) * width);
+    for (std::size_t i = 0; i < program_.joints.size(); ++i) {
+      const rigc_status got = read_block(i, count, width, matrices + first * width + 16 * i);
       if (got != RIGC_OK) result = got;
     }
   }

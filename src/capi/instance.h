@@ -40,6 +40,10 @@ class Instance {
   math::Affine world(int output, std::uint32_t frame) const;
   template <class Number>
   rigc_status read(std::size_t output, std::uint32_t frame, Number* matrix);
+  /// Frames 0 to `frames` - 1, `stride` numbers from one to the next.
+  template <class Number>
+  rigc_status read_block(std::size_t output, std::size_t frames, std::size_t stride,
+                         Number* matrices);
 
   const Program& program_;
   eval::Instance instance_;
