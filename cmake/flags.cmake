@@ -14,6 +14,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   target_compile_options(rigc_flags INTERFACE -Wno-array-bounds -Wno-free-nonheap-object -Wno-maybe-uninitialized
     -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
+# Every object may become a part of librigc_eval.so. None of its functions is replaced by another's at run time, so
+# that they are called and inlined as in a program.
+target_compile_options(rigc_flags INTERFACE -fPIC -fno-semantic-interposition)
 target_compile_definitions(rigc_flags INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MPL2_ONLY)
 if(RIGC_SANITIZE)
   target_compile_options(rigc_flags INTERFACE -fsanitize=${RIGC_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -21,7 +21,8 @@ namespace {
 /// Loads buffers; a file that several of them name is read once.
 class BufferLoader {
  public:
-  BufferLoader(File& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
+  BufferLoader(File& file, OtherFiles others, Diagnostics& diagnostics)
+      : file_(file), others_(others), diagnostics_(diagnostics) {}
 
   void load(std::size_t index, const json::Value& value) {
     index_ = index;
@@ -29,6 +30,7 @@ class BufferLoader {
     const auto length = static_cast<std::uint64_t>(value["byteLength"].integer().value_or(0));
     if (value["uri"]) {
       buffer.uri = value["uri"].string().value_or("");
+      if (others_ == OtherFiles::left_alone && !is_data_uri(buffer.uri)) return;
       auto bytes = read_uri(buffer.uri);
       if (!bytes) return;
       buffer.bytes = *std::move(bytes);
@@ -84,6 +86,7 @@ class BufferLoader {
   }
 
   File& file_;
+  OtherFiles others_;
   Diagnostics& diagnostics_;
   std::size_t index_ = 0;
   std::map<std::string, std::optional<Bytes>> read_;  ///< by resolved path
@@ -97,7 +100,8 @@ std::optional<File> open(const std::string& path, Diagnostics& diagnostics) {
   return open(path, *std::move(bytes), diagnostics);
 }
 
-std::optional<File> open(const std::string& path, Bytes bytes, Diagnostics& diagnostics) {
+std::optional<File> open(const std::string& path, Bytes bytes, Diagnostics& diagnostics,
+                         OtherFiles others) {
   const std::size_t errors = diagnostics.errors();
   File file;
   file.path = path;
@@ -116,7 +120,7 @@ std::optional<File> open(const std::string& path, Bytes bytes, Diagnostics& diag
   if (diagnostics.errors() != errors) return std::nullopt;
   const auto buffers = file.root()["buffers"].items();
   file.buffers.resize(buffers.size());
-  BufferLoader loader(file, diagnostics);
+  BufferLoader loader(file, others, diagnostics);
   for (std::size_t i = 0; i < buffers.size(); ++i) loader.load(i, buffers[i]);
   if (diagnostics.errors() != errors) return std::nullopt;
   return file;

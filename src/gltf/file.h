@@ -36,9 +36,13 @@ struct File {
 /// readers.
 std::optional<File> open(const std::string& path, Diagnostics& diagnostics);
 
+/// Buffers in files of their own: needed for what the file draws and plays, not for its rigs.
+enum class OtherFiles { read, left_alone /* these buffers are empty */ };
+
 /// The same for bytes in memory; `path` is what messages call them and where their buffers are
 /// looked for.
-std::optional<File> open(const std::string& path, Bytes bytes, Diagnostics& diagnostics);
+std::optional<File> open(const std::string& path, Bytes bytes, Diagnostics& diagnostics,
+                         OtherFiles others = OtherFiles::read);
 
 /// An empty file to write a rig into where there is no model: asset, scene 0.
 File empty_file();

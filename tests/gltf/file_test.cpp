@@ -249,6 +249,17 @@ TEST_CASE("gltf file: buffers are confined to the folder") {
   CHECK(open_uri("none.bin") == std::vector<int>{rigc::codes::kCannotRead.number});
 }
 
+TEST_CASE("gltf file: where other files are left alone their buffers are empty") {
+  const std::string text = R"({"asset":{"version":"2.0"},"buffers":[
+      {"byteLength":5,"uri":"/etc/hostname"},
+      {"byteLength":3,"uri":"data:application/octet-stream;base64,QUJD"}]})";
+  Diagnostics diagnostics;
+  const auto file = gltf::open("memory", Bytes(text), diagnostics, OtherFiles::left_alone);
+  REQUIRE(file);
+  CHECK(file->buffers[0].bytes.empty());
+  CHECK(gltf::test::text(file->buffers[1].bytes) == "ABC");
+}
+
 TEST_CASE("gltf file: base64 and data URIs") {
   std::mt19937_64 random(3);
   for (std::size_t size = 0; size < 40; ++size) {
