@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
-#include "cli/command.h"
+#include "cli/timing.h"
 #include "pipeline/bake_file.h"
 
 namespace rigc::cli {
@@ -33,15 +33,20 @@ class Bake final : public Command {
                    "Drop keys as long as no joint moves by more than this (default: 0)");
     options.flag("--keep-rig", request_.keep_rig,
                  "Keep the rig and the clips on its controls in the file");
+    declare_timing(options, timing_);
   }
   void run(Session& session) override {
+    run_timed(timing_, session, [&] { bake(session); });
+  }
+
+ private:
+  void bake(Session& session) {
     request_.tolerance_mm = tolerance_.value_or(0);
     const auto baked = pipeline::bake_file(request_, out_, session.diagnostics);
     if (!baked) return;
     session.out = session.json ? as_json(*baked) : as_text(*baked);
   }
 
- private:
   std::string as_text(const pipeline::Baked& baked) const {
     std::string text;
     for (const pipeline::BakedClip& clip : baked.clips) {
@@ -78,6 +83,7 @@ class Bake final : public Command {
   pipeline::BakeRequest request_;
   std::optional<double> tolerance_;
   std::string out_;
+  Timing timing_;
 };
 
 }  // namespace

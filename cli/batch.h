@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/command.h"
+#include "cli/timing.h"
 #include "pipeline/batch.h"
 
 namespace rigc::cli {
@@ -14,10 +14,14 @@ namespace rigc::cli {
 struct BatchOptions {
   pipeline::BatchRequest request;
   std::optional<double> jobs;
+  Timing timing;
 };
 
-/// FILE... --jobs --report --resume --out-dir --backup -o.
+/// FILE... --jobs --report --resume --out-dir --backup -o --time --trace.
 void declare_batch(Options& options, BatchOptions& batch);
+
+/// Everything that a command does with its files, measured where --time or --trace asks for it.
+void run_timed(const BatchOptions& batch, Session& session, const std::function<void()>& work);
 
 /// Does the work for all files: progress and their diagnostics go to stderr as they come, the
 /// summary (with --json the report) to stdout. `lists_all` prints every file's line, however many.

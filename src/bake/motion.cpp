@@ -10,6 +10,7 @@
 
 #include "bake/codes.h"
 #include "base/text.h"
+#include "base/trace.h"
 #include "eval/evaluate.h"
 
 namespace rigc::bake {
@@ -105,6 +106,7 @@ math::Affine world_of(const Body& body, const math::Trs& local, const math::Affi
 std::optional<Motion> evaluate(const scene::Scene& scene, const std::vector<Body>& bodies,
                                const std::vector<eval::ClipInput>& inputs,
                                std::vector<double> times, Diagnostics& diagnostics) {
+  const trace::Span span("evaluate");
   eval::Request request;
   for (const eval::ClipInput& input : inputs) request.inputs.push_back(input.plug);
   for (const Body& body : bodies) {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/trace.h"
+
 namespace rigc::bake {
 namespace {
 
@@ -173,6 +175,7 @@ class Player {
 
 double reduce(const scene::Scene& scene, const std::vector<Body>& bodies, const Motion& motion,
               const std::vector<float>& times, double tolerance, std::vector<Track>& tracks) {
+  const trace::Span span("reduce");
   const std::vector<Reach> reach = reaches(scene, bodies);
   const auto measure = [&] {
     return Player(bodies, motion, times, tracks).largest_error(reach, times);

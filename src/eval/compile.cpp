@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include <fmt/format.h>
+#include "base/trace.h"
 #include "eval/codes.h"
 #include "eval/cycle.h"
 #include "eval/emitter.h"
@@ -88,6 +89,7 @@ class Compiler {
         limits_(scene, diagnostics) {}
 
   std::optional<Program> compile(const Request& request) {
+    const trace::Span span("compile");
     for (const Plug& plug : request.inputs) {
       if (check_input(plug)) add_input(plug);
     }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/text.h"
+#include "base/trace.h"
 #include "gltf/clips.h"
 #include "gltf/rig.h"
 #include "pipeline/build.h"
@@ -111,6 +112,7 @@ std::optional<BakedClip> bake_clip(const BakeRequest& request, bake::Options opt
                                    const anim::Clip& clip, const std::vector<Bakeable>& rigs,
                                    std::vector<gltf::ClipChange>& changes,
                                    Diagnostics& diagnostics) {
+  const trace::Span span("bake clip", trace::kStage, "clip", clip.name);
   BakedClip baked{clip.name, true, {}};
   anim::Clip out{clip.name, clip.source_animation, {}};
   std::set<int> controls, driven;

@@ -15,6 +15,7 @@
 #include "base/codes.h"
 #include "base/files.h"
 #include "base/text.h"
+#include "base/trace.h"
 #include "pipeline/batch_codes.h"
 #include "pipeline/batch_inputs.h"
 #include "pipeline/batch_report.h"
@@ -163,8 +164,12 @@ class Runner {
     jobs = std::clamp(jobs, 1u, kMostJobs);
     std::vector<std::thread> threads;
     try {
+      trace::Recorder* const recorder = trace::current();
       while (threads.size() + 1 < std::min<std::size_t>(jobs, works_.size()))
-        threads.emplace_back([this] { run_thread(); });
+        threads.emplace_back([this, recorder, number = static_cast<unsigned>(threads.size()) + 1] {
+          const trace::Attach attach(recorder, number);
+          run_thread();
+        });
     } catch (const std::system_error&) {
       // No more threads to be had: those that are there do it all.
     }
@@ -187,6 +192,7 @@ class Runner {
   }
 
   FileResult run_one(const FileWork& work, Diagnostics& diagnostics) {
+    const trace::Span span("file", trace::kFile, "file", work.input);
     const bool mirrors = request_.writes && !request_.out_dir.empty();
     if (mirrors && !make_folder_of(work.output, diagnostics)) return {};
     try {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/trace.h"
 #include "scene/edit.h"
 #include "update/skeleton.h"
 
@@ -129,6 +130,7 @@ void Carrier::find_places() {
 }
 
 void Carrier::run() {
+  const trace::Span span("carry keys");
   find_places();
   report_nodes();
   succeed();
@@ -412,6 +414,7 @@ void Carrier::report_nodes() {
 }
 
 std::optional<std::vector<ClipComparison>> Carrier::compare(Diagnostics& diagnostics) const {
+  const trace::Span span("compare motion");
   // A rig that is taken apart plays nothing.
   if (old_.commands.empty() || fresh_.commands.empty()) return std::vector<ClipComparison>();
   std::vector<int> numbers(fresh_.scene.size());
