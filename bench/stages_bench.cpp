@@ -26,7 +26,8 @@ std::vector<std::pair<std::string, double>> time_stages() {
     if (!pipeline::build(request, bench::temporary_file("stages.glb"), diagnostics)) return {};
   }
   std::vector<std::pair<std::string, double>> stages;
-  for (const trace::Event& event : recorder.threads().front().events)
+  const std::vector<trace::ThreadEvents> threads = recorder.threads();
+  for (const trace::Event& event : threads.front().events)
     if (event.depth == 0)
       stages.emplace_back(event.name, static_cast<double>(event.end - event.begin) / 1e9);
   return stages;
