@@ -21,7 +21,7 @@ std::vector<std::pair<std::string, double>> time_stages() {
   request.template_file = std::string(RIGC_SOURCE_DIR) + "/templates/biped.yaml";
   trace::Recorder recorder;
   {
-    const trace::Attach attach(&recorder, 0);
+    const trace::Attach attach(&recorder);
     Diagnostics diagnostics;
     if (!pipeline::build(request, bench::temporary_file("stages.glb"), diagnostics)) return {};
   }

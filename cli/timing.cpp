@@ -57,7 +57,7 @@ void run_timed(const Timing& timing, Session& session, const std::function<void(
   if (!timing.trace.empty() && !begin_trace(timing.trace, others, session.diagnostics)) return;
   trace::Recorder recorder;
   {
-    const trace::Attach attach(&recorder, 0);
+    const trace::Attach attach(&recorder);
     work();
   }
   const std::vector<trace::ThreadEvents> threads = recorder.threads();

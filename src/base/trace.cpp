@@ -29,15 +29,16 @@ std::vector<ThreadEvents> Recorder::threads() const {
   const std::lock_guard lock(mutex_);
   std::vector<ThreadEvents> out = threads_;
   std::stable_sort(out.begin(), out.end(), [](const ThreadEvents& a, const ThreadEvents& b) {
-    return a.number < b.number;
+    return a.number != b.number ? a.number < b.number : a.begin < b.begin;
   });
   return out;
 }
 
-Attach::Attach(Recorder* recorder, unsigned number) : before_(detail::attached) {
+Attach::Attach(Recorder* recorder) : before_(detail::attached) {
   if (recorder) {
     own_ = new detail::Attached{*recorder, {}, 0};
-    own_->thread.number = number;
+    const std::lock_guard lock(recorder->mutex_);
+    while (!recorder->numbers_.insert(own_->thread.number).second) ++own_->thread.number;
     own_->thread.begin = recorder->now();
   }
   detail::attached = own_;
@@ -50,6 +51,7 @@ Attach::~Attach() {
   own_->thread.end = recorder.now();
   {
     const std::lock_guard lock(recorder.mutex_);
+    recorder.numbers_.erase(own_->thread.number);
     recorder.threads_.push_back(std::move(own_->thread));
   }
   delete own_;

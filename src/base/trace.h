@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,9 +28,9 @@ struct Event {
   std::size_t depth = 0;  ///< spans around it
 };
 
-/// What one thread recorded, in the order in which spans began.
+/// What one thread recorded while it was attached, in the order in which spans began.
 struct ThreadEvents {
-  unsigned number = 0;
+  unsigned number = 0;  ///< 0: the first thread; a thread that ends leaves its number to another
   std::int64_t begin = 0;
   std::int64_t end = 0;
   std::vector<Event> events;
@@ -40,7 +41,7 @@ struct ThreadEvents {
 class Recorder {
  public:
   explicit Recorder(std::size_t most = 500'000);
-  /// Threads that are detached again, by their numbers.
+  /// Of threads that are detached again, by number and time.
   std::vector<ThreadEvents> threads() const;
 
  private:
@@ -52,6 +53,7 @@ class Recorder {
   std::int64_t start_;
   mutable std::mutex mutex_;
   std::vector<ThreadEvents> threads_;
+  std::set<unsigned> numbers_;  ///< of threads that are attached
 };
 
 namespace detail {
@@ -66,11 +68,10 @@ extern constinit thread_local Attached* attached;
 
 }  // namespace detail
 
-/// Spans of this thread go to `recorder` as long as this lives; null: nowhere. `number` is 0 for
-/// the thread that began the work and else the thread's place among the others.
+/// Spans of this thread go to `recorder` as long as this lives; null: nowhere.
 class Attach {
  public:
-  Attach(Recorder* recorder, unsigned number);
+  explicit Attach(Recorder* recorder);
   ~Attach();
   Attach(const Attach&) = delete;
   Attach& operator=(const Attach&) = delete;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "base/json.h"
 #include "base/text.h"
@@ -59,6 +60,7 @@ struct Stage {
 struct Sums {
   Stage all;  ///< `total`: the time of all threads
   std::map<std::string, Total> modules;
+  std::set<unsigned> threads;
   std::size_t left_out = 0;
 };
 
@@ -66,6 +68,7 @@ bool is_command(const Event& event) { return event.category != kStage && event.c
 
 void add_thread(const ThreadEvents& thread, Sums& sums) {
   sums.all.total.nanoseconds += thread.end - thread.begin;
+  sums.threads.insert(thread.number);
   sums.left_out += thread.left_out;
   std::vector<const Event*> path;  // the events around this one, and itself
   for (const Event& event : thread.events) {
@@ -114,9 +117,11 @@ std::string as_json(const std::vector<ThreadEvents>& threads) {
   json::Writer w;
   w.begin_object().member("displayTimeUnit", "ms").key("traceEvents").begin_array();
   write_name(w, "process_name", 0, "rigc");
+  std::set<unsigned> named;
   for (const ThreadEvents& thread : threads) {
-    write_name(w, "thread_name", thread.number,
-               thread.number == 0 ? "main" : fmt::format("job {}", thread.number));
+    if (named.insert(thread.number).second)
+      write_name(w, "thread_name", thread.number,
+                 thread.number == 0 ? "main" : fmt::format("job {}", thread.number));
     for (const Event& event : thread.events) write_event(w, event, thread.number);
   }
   return w.end_array().end_object().take() + "\n";
@@ -132,8 +137,8 @@ std::string as_table(const std::vector<ThreadEvents>& threads) {
   Total other{whole, 0};
   for (const Stage& stage : sums.all.inner) other.nanoseconds -= stage.total.nanoseconds;
   table.row("other", other);
-  table.row(threads.size() == 1 ? "total" : fmt::format("total of {} threads", threads.size()),
-            {whole, 0});
+  const std::size_t count = sums.threads.size();
+  table.row(count == 1 ? "total" : fmt::format("total of {} threads", count), {whole, 0});
   std::vector<std::pair<std::string, Total>> modules(sums.modules.begin(), sums.modules.end());
   std::stable_sort(modules.begin(), modules.end(), [](const auto& a, const auto& b) {
     return a.second.nanoseconds > b.second.nanoseconds;

@@ -166,8 +166,8 @@ class Runner {
     try {
       trace::Recorder* const recorder = trace::current();
       while (threads.size() + 1 < std::min<std::size_t>(jobs, works_.size()))
-        threads.emplace_back([this, recorder, number = static_cast<unsigned>(threads.size()) + 1] {
-          const trace::Attach attach(recorder, number);
+        threads.emplace_back([this, recorder] {
+          const trace::Attach attach(recorder);
           run_thread();
         });
     } catch (const std::system_error&) {

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -21,7 +22,7 @@ namespace {
 std::vector<ThreadEvents> record(std::size_t most = 1000) {
   Recorder recorder(most);
   {
-    const Attach attach(&recorder, 0);
+    const Attach attach(&recorder);
     {
       const Span run("run commands");
       const Span first("main", "control", "joint", "hips");
@@ -52,7 +53,7 @@ std::vector<std::string> row(const std::string& table, const std::string& name) 
 
 TEST_CASE("base trace: without a recorder nothing is recorded") {
   CHECK(trace::current() == nullptr);
-  const Attach attach(nullptr, 0);
+  const Attach attach(nullptr);
   const Span span("work");
   CHECK(trace::current() == nullptr);
 }
@@ -82,9 +83,9 @@ TEST_CASE("base trace: spans have what they were given and lie inside those arou
 TEST_CASE("base trace: an inner attachment takes the spans and gives them back") {
   Recorder outer, inner;
   {
-    const Attach attach(&outer, 0);
+    const Attach attach(&outer);
     {
-      const Attach other(&inner, 0);
+      const Attach other(&inner);
       CHECK(trace::current() == &inner);
       const Span span("inner");
     }
@@ -97,26 +98,32 @@ TEST_CASE("base trace: an inner attachment takes the spans and gives them back")
   CHECK(inner.threads()[0].events[0].name == "inner");
 }
 
-TEST_CASE("base trace: each thread has its number and its own spans") {
+TEST_CASE("base trace: threads that run together have numbers and spans of their own") {
   Recorder recorder;
   constexpr unsigned kThreads = 4;
   {
-    const Attach attach(&recorder, 0);
+    const Attach attach(&recorder);
     Recorder* const shared = trace::current();
+    std::atomic<unsigned> attached{0};
     std::vector<std::thread> threads;
-    for (unsigned number = kThreads; number >= 1; --number)
-      threads.emplace_back([shared, number] {
-        const Attach own(shared, number);
-        for (unsigned i = 0; i < 100 * number; ++i) const Span span("work");
+    for (unsigned i = 0; i < kThreads; ++i)
+      threads.emplace_back([&, shared] {
+        const Attach own(shared);
+        for (++attached; attached < kThreads;) std::this_thread::yield();
+        for (unsigned k = 0; k < 100; ++k) const Span span("work");
       });
     for (std::thread& thread : threads) thread.join();
+    std::thread([shared] { const Attach own(shared); }).join();  // takes a number that is free
   }
   const std::vector<ThreadEvents> threads = recorder.threads();
-  REQUIRE(threads.size() == kThreads + 1);
-  for (unsigned number = 0; number <= kThreads; ++number) {
-    CHECK(threads[number].number == number);
-    CHECK(threads[number].events.size() == 100 * number);
+  REQUIRE(threads.size() == kThreads + 2);
+  const unsigned numbers[] = {0, 1, 1, 2, 3, 4};
+  const std::size_t spans[] = {0, 100, 0, 100, 100, 100};
+  for (std::size_t i = 0; i < threads.size(); ++i) {
+    CHECK(threads[i].number == numbers[i]);
+    CHECK(threads[i].events.size() == spans[i]);
   }
+  CHECK(trace::as_table(threads).find("total of 5 threads") != std::string::npos);
 }
 
 TEST_CASE("base trace: beyond the limit spans are counted") {
@@ -162,6 +169,7 @@ TEST_CASE("base trace: the table adds up stages and modules") {
                        {"hand", "control", "joint", "b", 13'000'000, 14'000'000, 1},
                        {"fk", "fk_chain", "", "", 14'000'000, 20'000'000, 1},
                        {"open", "stage", "", "", 20'000'000, 21'000'000, 0}};
+  threads[1].number = 1;
   threads[1].begin = 10'000'000;
   threads[1].end = 20'000'000;
   threads[1].events = {{"read", "stage", "", "", 10'000'000, 15'000'000, 0}};
