@@ -4,6 +4,7 @@
 #include <benchmark/benchmark.h>
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -48,6 +49,15 @@ bool rigc::bench::run_process(std::vector<std::string> words) {
   posix_spawn_file_actions_destroy(&actions);
   int status = -1;
   return failed == 0 && waitpid(child, &status, 0) == child && status == 0;
+}
+
+double rigc::bench::children_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 std::string rigc::bench::corpus_file(const std::string& path) {

@@ -3,34 +3,34 @@
 // inside this process, and each row is one stage of it.
 #include <benchmark/benchmark.h>
 
-#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/trace.h"
 #include "bench/bench.h"
 #include "pipeline/build.h"
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using namespace rigc;
 
 /// Seconds that each stage of one build took, in order; empty where the build failed.
 std::vector<std::pair<std::string, double>> time_stages() {
-  std::vector<std::pair<std::string, double>> stages;
-  rigc::pipeline::BuildRequest request;
+  pipeline::BuildRequest request;
   request.template_file = std::string(RIGC_SOURCE_DIR) + "/templates/biped.yaml";
-  Clock::time_point last = Clock::now();
-  request.on_stage = [&](std::string_view stage) {
-    const Clock::time_point now = Clock::now();
-    stages.emplace_back(stage, std::chrono::duration<double>(now - last).count());
-    last = now;
-  };
-  const std::string out = rigc::bench::temporary_file("stages.glb");
-  rigc::Diagnostics diagnostics;
-  return rigc::pipeline::build(request, out, diagnostics)
-             ? stages
-             : std::vector<std::pair<std::string, double>>();
+  trace::Recorder recorder;
+  {
+    const trace::Attach attach(&recorder);
+    Diagnostics diagnostics;
+    if (!pipeline::build(request, bench::temporary_file("stages.glb"), diagnostics)) return {};
+  }
+  std::vector<std::pair<std::string, double>> stages;
+  const std::vector<trace::ThreadEvents> threads = recorder.threads();
+  for (const trace::Event& event : threads.front().events)
+    if (event.depth == 0)
+      stages.emplace_back(event.name, static_cast<double>(event.end - event.begin) / 1e9);
+  return stages;
 }
 
 void stage(benchmark::State& state, std::size_t index) {

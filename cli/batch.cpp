@@ -68,6 +68,11 @@ void declare_batch(Options& options, BatchOptions& batch, Target target) {
                "Write what became of each file, also when interrupted");
   options.text("--resume", "R.json", request.resume, false,
                "Leave out what this report of an earlier run says is done");
+  declare_timing(options, batch.timing);
+}
+
+void run_timed(const BatchOptions& batch, Session& session, const std::function<void()>& work) {
+  run_timed(batch.timing, session, work, {batch.request.report, batch.request.resume});
 }
 
 void run_batch(BatchOptions& batch, const pipeline::Work& work, bool lists_all, Session& session) {

@@ -5,10 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "base/text.h"
-#include "cli/command.h"
+#include "cli/timing.h"
 
 namespace rigc::cli {
 namespace {
@@ -110,20 +109,15 @@ class Build final : public Command {
     options.text("-o,--output", "OUT.glb", out_, true, "File to write (.glb or .gltf)");
     options.flag("--skeleton-only", request_.skeleton_only,
                  "Make the skeleton with its tags, run nothing");
-    options.flag("--time", time_, "Say on stderr where the time went");
+    declare_timing(options, timing_);
     declare_paths(options, request_.paths);
   }
   void run(Session& session) override {
-    using Clock = std::chrono::steady_clock;
-    auto last = Clock::now();
-    if (time_) {
-      request_.on_stage = [&](std::string_view stage) {
-        const auto now = Clock::now();
-        session.notes += fmt::format("{:<11}{:8.2f} ms\n", stage,
-                                     std::chrono::duration<double, std::milli>(now - last).count());
-        last = now;
-      };
-    }
+    run_timed(timing_, session, [&] { build(session); });
+  }
+
+ private:
+  void build(Session& session) {
     const auto built = pipeline::build(request_, out_, session.diagnostics);
     if (!built) return;
     if (session.json) {
@@ -138,10 +132,9 @@ class Build final : public Command {
     if (!request_.model.empty()) session.out += fit_text(built->fit);
   }
 
- private:
   pipeline::BuildRequest request_;
   std::string out_;
-  bool time_ = false;
+  Timing timing_;
 };
 
 }  // namespace

@@ -47,6 +47,11 @@ class Update final : public Command {
     declare_paths(options, settings_.paths);
   }
   void run(Session& session) override {
+    run_timed(batch_, session, [&] { update(session); });
+  }
+
+ private:
+  void update(Session& session) {
     const auto updater = pipeline::Updater::make(settings_, session.diagnostics);
     if (!updater) return;
     batch_.request.command = "update";
@@ -60,7 +65,6 @@ class Update final : public Command {
         settings_.plan || settings_.verbose, session);
   }
 
- private:
   pipeline::UpdateSettings settings_;
   BatchOptions batch_;
 };

@@ -9,6 +9,7 @@
 
 #include "bake/codes.h"
 #include "base/text.h"
+#include "base/trace.h"
 #include "eval/evaluate.h"
 
 namespace rigc::bake {
@@ -245,6 +246,7 @@ void Evaluator::prepare(Motion& motion, Found& found) const {
 
 std::optional<Motion> Evaluator::run(std::vector<double> times, Threads& threads,
                                      Diagnostics& diagnostics) const {
+  const trace::Span span("evaluate");
   Motion motion;
   motion.times = std::move(times);
   const std::size_t frames = motion.times.size();

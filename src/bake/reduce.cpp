@@ -8,6 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/trace.h"
+
 namespace rigc::bake {
 namespace {
 
@@ -201,6 +203,7 @@ class Comparison {
 double reduce(const std::vector<Body>& bodies, const std::vector<Reach>& reach,
               const Motion& motion, const std::vector<float>& times, double tolerance,
               Threads& threads, std::vector<Track>& tracks) {
+  const trace::Span span("reduce");
   const auto shared = std::make_shared<const std::vector<float>>(times);
   std::vector<anim::Curve> all;
   for (const Track& track : tracks) all.push_back(curve_of(track, shared));

@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/trace.h"
+
 namespace rigc {
 namespace {
 
@@ -46,6 +48,7 @@ class Threads::Loop {
   }
 
   void help() {
+    const trace::Attach attach(recorder_);
     while (work_on_next([] {})) {
     }
     ++threads_.spare_;
@@ -72,6 +75,7 @@ class Threads::Loop {
   Threads& threads_;
   const std::size_t count_;
   const std::function<void(std::size_t)>& work_;
+  trace::Recorder* const recorder_ = trace::current();
   std::atomic<std::size_t> next_{0};
   std::vector<std::thread> helpers_;
   std::mutex mutex_;

@@ -18,6 +18,7 @@
 #include "base/files.h"
 #include "base/ids.h"
 #include "base/posix.h"
+#include "base/trace.h"
 
 namespace rigc {
 namespace {
@@ -226,6 +227,7 @@ bool append_all(const std::vector<Bytes>& pieces, int to, const std::string& pat
 }
 
 bool flush(int descriptor) {
+  const trace::Span span("flush");
   while (::fsync(descriptor) != 0) {
     // Some file systems cannot flush folders; there is nothing to be done about it.
     if (errno == EINVAL || errno == ENOTSUP || errno == ENOSYS) return true;

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include <fmt/format.h>
+#include "base/trace.h"
 #include "eval/codes.h"
 #include "eval/cycle.h"
 #include "eval/emitter.h"
@@ -91,6 +92,7 @@ class Compiler {
         worlds_(scene.size()) {}
 
   std::optional<Program> compile(const Request& request) {
+    const trace::Span span("compile");
     for (const Plug& plug : request.inputs) {
       if (check_input(plug)) add_input(plug);
     }

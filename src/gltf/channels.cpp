@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/text.h"
+#include "base/trace.h"
 #include "gltf/clips.h"
 #include "gltf/splice.h"
 #include "gltf/uses.h"
@@ -127,6 +128,7 @@ class Editor {
 }  // namespace
 
 void edit_channels(Patch& patch, const File& file, const std::vector<ChannelEdit>& edits) {
+  const trace::Span span("edit channels");
   if (edits.empty()) return;
   std::map<int, std::vector<const ChannelEdit*>> by_animation;
   for (const ChannelEdit& edit : edits) by_animation[edit.animation].push_back(&edit);

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "base/text.h"
+#include "base/trace.h"
 #include "gltf/accessor.h"
 #include "gltf/codes.h"
 #include "gltf/slim.h"
@@ -235,6 +236,7 @@ std::string pointer_escaped(std::string_view step) {
 }
 
 std::optional<ClipFile> read_clips(const File& file, Diagnostics& diagnostics, const Slim* known) {
+  const trace::Span span("read clips");
   const std::size_t errors = diagnostics.errors();
   const auto own = known ? std::nullopt : read_slim(file, diagnostics);
   if (!known && !own) return std::nullopt;

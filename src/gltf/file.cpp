@@ -10,6 +10,7 @@
 
 #include "base/codes.h"
 #include "base/text.h"
+#include "base/trace.h"
 #include "gltf/check.h"
 #include "gltf/codes.h"
 #include "gltf/container.h"
@@ -95,6 +96,7 @@ class BufferLoader {
 }  // namespace
 
 std::optional<File> open(const std::string& path, Diagnostics& diagnostics) {
+  const trace::Span span("read file");
   auto bytes = Bytes::open(path, kLargestFile, diagnostics);
   if (!bytes) return std::nullopt;
   return open(path, *std::move(bytes), diagnostics);

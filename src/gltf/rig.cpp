@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/text.h"
+#include "base/trace.h"
 #include "gltf/control_mesh.h"
 #include "gltf/proxy_mesh.h"
 #include "gltf/rig_check.h"
@@ -274,6 +275,7 @@ void Slots::add(int index) {
 
 bool write_rig(Patch& patch, Rig& rig, int ancestor, const Places& places,
                Diagnostics& diagnostics) {
+  const trace::Span span("write rig");
   if (!check_writable(rig, diagnostics)) return false;
   const NodePlan plan = plan_nodes(rig, ancestor);
   const std::vector<ProxyGroup> proxies = proxy_groups(rig.scene, plan.roots);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/text.h"
+#include "base/trace.h"
 #include "gltf/rig.h"
 #include "gltf/rig_codes.h"
 #include "gltf/rig_json.h"
@@ -173,6 +174,7 @@ std::optional<std::vector<Text>> read_texts(const File& file, const json::Value&
 
 std::optional<std::vector<Rig>> read_rigs(const File& file, Diagnostics& diagnostics,
                                           Origins origins, const Slim* known) {
+  const trace::Span span("read rigs");
   const json::Value extension = file.root()["extensions"]["RIGC_rig"];
   if (!extension) return std::vector<Rig>();
   auto texts = read_texts(file, extension, origins, diagnostics);

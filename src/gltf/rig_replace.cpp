@@ -6,6 +6,7 @@
 #include <array>
 
 #include "base/text.h"
+#include "base/trace.h"
 #include "gltf/rig_json_orphans.h"
 #include "gltf/rig_nodes.h"
 
@@ -101,6 +102,7 @@ std::vector<int> own_nodes(const Rig& rig) {
 
 bool replace_rigs(Patch& patch, const File& file, std::vector<Replacement>& replacements,
                   Diagnostics& diagnostics) {
+  const trace::Span span("write rigs");
   const auto nodes = file.root()["nodes"].items();
   std::vector<const Rig*> old;
   Kept kept;

@@ -3,6 +3,7 @@
 // Test: tests/gltf/rig_strip_test.cpp
 #include <algorithm>
 
+#include "base/trace.h"
 #include "gltf/rig.h"
 #include "gltf/rig_nodes.h"
 #include "gltf/rig_replace.h"
@@ -232,6 +233,7 @@ std::set<int> strip_but(Patch& patch, const File& file, const Rigs& rigs, Strip 
 
 std::set<int> strip_rigs(Patch& patch, const File& file, const std::vector<Rig>& rigs,
                          Strip remains) {
+  const trace::Span span("strip rigs");
   Rigs pointers;
   for (const Rig& rig : rigs) pointers.push_back(&rig);
   return strip_but(patch, file, pointers, remains, {});

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "base/text.h"
+#include "base/trace.h"
 #include "gltf/bind.h"
 #include "gltf/bones.h"
 #include "gltf/clips.h"
@@ -141,6 +142,7 @@ void check_rests(const File& file, const tags::ForeignSkeleton& skeleton,
 std::optional<std::vector<tags::ForeignSkeleton>> read_skeletons(const File& file,
                                                                  const std::string& rest,
                                                                  Diagnostics& diagnostics) {
+  const trace::Span span("read skeletons");
   const auto slim = read_slim(file, diagnostics, false);
   if (!slim) return std::nullopt;
   std::map<int, Affine> posed;

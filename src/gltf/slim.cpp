@@ -12,6 +12,7 @@
 #include <span>
 
 #include "base/text.h"
+#include "base/trace.h"
 #include "gltf/check.h"
 #include "gltf/codes.h"
 
@@ -261,6 +262,7 @@ class SlimReader {
 }  // namespace
 
 std::optional<Slim> read_slim(const File& file, Diagnostics& diagnostics, bool animations) {
+  const trace::Span span("read nodes");
   Slim slim;
   if (!SlimReader(file, diagnostics).read(slim, animations)) return std::nullopt;
   return slim;

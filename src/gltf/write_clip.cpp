@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "base/trace.h"
 #include "gltf/clips.h"
 #include "gltf/float_text.h"
 #include "gltf/splice.h"
@@ -240,6 +241,7 @@ void replace_matrix(Patch& patch, int node) {
 }  // namespace
 
 void write_clips(Patch& patch, const File& file, const std::vector<ClipChange>& changes) {
+  const trace::Span span("write clips");
   std::vector<Change> all;
   for (const ClipChange& change : changes) all.emplace_back(file, change);
   Uses uses(file);

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/text.h"
+#include "base/trace.h"
 #include "gltf/clips.h"
 #include "gltf/rig.h"
 #include "gltf/slim.h"

@@ -11,6 +11,7 @@
 
 #include "base/files.h"
 #include "base/text.h"
+#include "base/trace.h"
 #include "pipeline/batch_codes.h"
 
 namespace rigc::pipeline {
@@ -187,6 +188,7 @@ class Finder {
 std::optional<std::vector<BatchInput>> find_inputs(const std::vector<std::string>& arguments,
                                                    const std::vector<std::string>& left_out,
                                                    Diagnostics& diagnostics) {
+  const trace::Span span("find files");
   const std::size_t errors = diagnostics.errors();
   Finder finder(left_out, diagnostics);
   for (const std::string& argument : arguments) finder.add_argument(argument);

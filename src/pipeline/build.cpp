@@ -9,6 +9,7 @@
 
 #include "base/files.h"
 #include "base/text.h"
+#include "base/trace.h"
 #include "gltf/skeletons.h"
 #include "pipeline/codes.h"
 #include "tags/settings.h"
@@ -21,10 +22,6 @@ namespace {
 /// A feature of this name brings bodies for rigs without a model; with one it is off unless
 /// somebody asks for it.
 constexpr std::string_view kProxyFeature = "proxy";
-
-void told(const BuildRequest& request, std::string_view stage) {
-  if (request.on_stage) request.on_stage(stage);
-}
 
 bool read_settings(const BuildRequest& request, const templates::Expanded& expanded,
                    tags::Settings& settings, Diagnostics& diagnostics) {
@@ -119,7 +116,6 @@ std::optional<tags::TaggedSkeleton> fit_to_model(const BuildRequest& request,
                                                  Prepared& out, Diagnostics& diagnostics) {
   out.model = gltf::open(request.model, diagnostics);
   if (!out.model) return std::nullopt;
-  told(request, "read model");
   const auto skeletons = gltf::read_skeletons(*out.model, request.rest, diagnostics);
   if (!skeletons) return std::nullopt;
   const tags::ForeignSkeleton* skeleton = choose_skeleton(*skeletons, request, diagnostics);
@@ -146,10 +142,8 @@ std::optional<Prepared> prepare(const BuildRequest& request, Diagnostics& diagno
   const templates::Template* main = library.open(request.template_file, diagnostics);
   if (!main) return std::nullopt;
   out.needs_outside = !main->needs.empty();
-  told(request, "read");
   const auto expanded = templates::expand(*main, library, out.catalogue, diagnostics);
   if (!expanded) return std::nullopt;
-  told(request, "expand");
   auto skeleton = request.model.empty()
                       ? templates::place(*expanded, diagnostics)
                       : fit_to_model(request, *expanded, library.folders(), out, diagnostics);
@@ -157,14 +151,13 @@ std::optional<Prepared> prepare(const BuildRequest& request, Diagnostics& diagno
     return std::nullopt;
   if (!request.global.empty()) tags::set_global(*skeleton, request.global);
   out.declared = *std::move(skeleton);
-  told(request, request.model.empty() ? "place" : "fit");
   if (!list_commands(out, request, out.catalogue, diagnostics)) return std::nullopt;
-  told(request, "list");
   return out;
 }
 
 bool list_commands(Compilation& out, const BuildRequest& request,
                    const catalog::Catalogue& catalogue, Diagnostics& diagnostics) {
+  const trace::Span span("list commands");
   out.skeleton = out.declared;
   if (!tags::apply(out.skeleton, out.settings, diagnostics)) return false;
   auto commands = processor::list(out.skeleton, catalogue, diagnostics);
@@ -213,6 +206,7 @@ void record_commands(const Compilation& compilation, const processor::Processor&
 std::optional<gltf::Rig> run_commands(const Compilation& compilation,
                                       const catalog::Catalogue& catalogue, std::size_t& skipped,
                                       Diagnostics& diagnostics) {
+  const trace::Span span("run commands");
   processor::Processor processor(compilation.skeleton, compilation.commands, catalogue,
                                  compilation.rig_id);
   if (!processor.go_to(compilation.end, diagnostics)) return std::nullopt;
@@ -236,18 +230,15 @@ std::optional<Built> build(const BuildRequest& request, const std::string& out,
   Built built;
   auto rig = run_commands(*prepared, prepared->catalogue, built.skipped, diagnostics);
   if (!rig) return std::nullopt;
-  told(request, "run");
   built.rig = *std::move(rig);
   built.fit = std::move(prepared->fit);
   if (!check_evaluates(built.rig.scene, diagnostics)) return std::nullopt;
-  told(request, "compile");
 
   const gltf::File empty = gltf::empty_file();
   const gltf::File& file = prepared->model ? *prepared->model : empty;
   gltf::Patch patch(file);
   if (!gltf::write_rig(patch, built.rig, prepared->ancestor, diagnostics)) return std::nullopt;
   if (!write_output(patch, file, out, built.bytes, diagnostics)) return std::nullopt;
-  told(request, "write");
   return built;
 }
 

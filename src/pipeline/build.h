@@ -3,10 +3,8 @@
 // Test: tests/pipeline/build_test.cpp
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "gltf/rig.h"
@@ -29,8 +27,6 @@ struct BuildRequest {
   std::string until;                  ///< JOINT/COMMAND
   bool skeleton_only = false;
   Paths paths;
-  std::function<void(std::string_view stage)>
-      on_stage;  ///< told when a stage ends, for --time; may be empty
 };
 
 /// What a skeleton and settings become before anything runs.

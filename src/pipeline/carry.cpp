@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "base/trace.h"
 #include "scene/edit.h"
 #include "update/skeleton.h"
 

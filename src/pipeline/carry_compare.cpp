@@ -2,6 +2,7 @@
 // Compares how a rig and its successor play. Test: tests/pipeline/update_test.cpp
 #include <numeric>
 
+#include "base/trace.h"
 #include "pipeline/carry.h"
 #include "update/skeleton.h"
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Compiles a built scene once, so that a cycle is an error of the build and not of the first bake.
 // Test: tests/pipeline/build_test.cpp
+#include "base/trace.h"
 #include "eval/program.h"
 #include "pipeline/build.h"
 
 namespace rigc::pipeline {
 
 bool check_evaluates(const scene::Scene& scene, Diagnostics& diagnostics) {
+  const trace::Span span("check evaluation");
   eval::Request request;
   for (scene::NodeId id : scene.nodes()) {
     if (scene::spec(scene[id].kind).is_transform)

@@ -9,6 +9,7 @@
 
 #include "base/files.h"
 #include "base/text.h"
+#include "base/trace.h"
 #include "gltf/codes.h"
 #include "pipeline/build.h"
 #include "pipeline/codes.h"
@@ -112,6 +113,7 @@ bool check_output_name(const std::string& out, Diagnostics& diagnostics) {
 
 bool write_output(gltf::Patch& patch, const gltf::File& file, const std::string& out,
                   std::uint64_t& bytes, Diagnostics& diagnostics, const std::vector<Beside>& more) {
+  const trace::Span span("write file");
   const auto output = patch.finish(!ends_with(out, ".gltf"), diagnostics);
   if (!output) return false;
   Copies copies(out, diagnostics);

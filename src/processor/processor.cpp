@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "base/trace.h"
 #include "processor/codes.h"
 #include "processor/forecast.h"
 #include "selector/selector.h"
@@ -59,6 +60,7 @@ traversal::Context Processor::context(std::size_t command) const {
 bool Processor::construct(std::size_t at, scene::Edit& edit, Diagnostics& diagnostics) {
   const Command& command = commands_.commands[at];
   const tags::CommandTag& tag = tag_of(skeleton_, command);
+  const trace::Span span(tag.id, tag.module, "joint", skeleton_.joints[command.joint].name);
   traversal::Context where = context(at);
   where.forecast = [&](const selector::Choice& choice) {
     return forecast({skeleton_, commands_, catalogue_, at, diagnostics.sources()}, choice, where);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "base/trace.h"
 #include "templates/codes.h"
 #include "templates/expander.h"
 
@@ -19,6 +20,7 @@ constexpr std::size_t kMostJoints = 20'000;
 
 std::optional<Expanded> expand(const Template& main, Library& library,
                                const catalog::Catalogue& catalogue, Diagnostics& diagnostics) {
+  const trace::Span span("expand");
   return Expander(main, library, catalogue, diagnostics).run();
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "base/trace.h"
 #include "templates/chain.h"
 #include "templates/codes.h"
 #include "templates/fit_match.h"
@@ -343,6 +344,7 @@ std::optional<tags::TaggedSkeleton> fit(const Expanded& expanded,
                                         const tags::ForeignSkeleton& model, const Map& map,
                                         FitReport& report, Diagnostics& diagnostics,
                                         const Bindings* known) {
+  const trace::Span span("fit");
   report.map = map.name;
   if (!is_forest(model)) {
     diagnostics.report(codes::kBadModel, Place(model.file),

@@ -8,6 +8,7 @@
 
 #include "base/files.h"
 #include "base/text.h"
+#include "base/trace.h"
 #include "templates/codes.h"
 #include "templates/read.h"
 
@@ -100,6 +101,7 @@ const Template* Library::read_once(const std::string& path, const std::string& s
                                    const std::string& reference, Diagnostics& diagnostics) {
   const auto found = read_.find(path);
   if (found != read_.end()) return found->second.get();
+  const trace::Span span("read template", trace::kStage, "template", shown_path);
   std::unique_ptr<Template>& slot = read_[path];
   auto text = read_file(path, kMostBytes, diagnostics);
   if (!text) return nullptr;

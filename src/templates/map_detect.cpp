@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "base/trace.h"
 #include "templates/codes.h"
 #include "templates/fit_match.h"
 
@@ -86,6 +87,7 @@ std::vector<MapTrial> try_maps(const std::vector<Map>& maps, const Expanded& exp
 std::optional<Map> detect_map(const Expanded& expanded, const tags::ForeignSkeleton& skeleton,
                               const std::vector<std::string>& template_folders,
                               Diagnostics& diagnostics) {
+  const trace::Span span("match bones");
   const std::size_t errors_before = diagnostics.errors();
   const std::vector<Map> maps = all_maps(template_folders, diagnostics);
   if (diagnostics.errors() != errors_before) return std::nullopt;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "base/trace.h"
 #include "templates/chain.h"
 #include "templates/codes.h"
 #include "templates/expand.h"
@@ -280,6 +281,7 @@ std::optional<tags::TaggedSkeleton> Placer::run() {
 }  // namespace
 
 std::optional<tags::TaggedSkeleton> place(const Expanded& expanded, Diagnostics& diagnostics) {
+  const trace::Span span("place");
   return Placer(expanded, diagnostics).run();
 }
 

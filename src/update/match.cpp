@@ -7,6 +7,8 @@
 #include <map>
 #include <tuple>
 
+#include "base/trace.h"
+
 namespace rigc::update {
 namespace {
 
@@ -243,6 +245,7 @@ std::vector<std::optional<Match>> match(const std::vector<Source>& sources,
                                         const scene::Scene& fresh,
                                         const tags::TaggedSkeleton& skeleton,
                                         const catalog::Catalogue& catalogue) {
+  const trace::Span span("match");
   return Matcher(sources, fresh, skeleton, catalogue).run();
 }
 
