@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Levels of unknowns: depth first over the plugs that their parents' worlds come from, with a stack
+// of its own, each plug once. Test: tests/bake/transfer_test.cpp
+#include "bake/transfer_order.h"
+
+#include <algorithm>
+#include <map>
+
+#include "bake/transfer_plugs.h"
+
+namespace rigc::bake {
+namespace {
+
+using scene::NodeId;
+using scene::Plug;
+namespace transform = scene::transform;
+
+class Levels {
+ public:
+  Levels(const scene::Scene& scene, const std::vector<Unknown>& unknowns) : scene_(scene) {
+    solved_.assign(scene.size(), false);
+    for (const Unknown& unknown : unknowns) solved_[unknown.node.index] = true;
+  }
+
+  /// How many unknowns, one above the other, a node's parent comes from.
+  int of(NodeId node) {
+    const Plug wanted{node, transform::kParent};
+    open(wanted);
+    while (!stack_.empty()) {
+      Frame& frame = stack_.back();
+      if (frame.next < frame.needs.size()) {
+        const Plug need = frame.needs[frame.next++];
+        if (!levels_.contains(need)) open(need);
+        continue;
+      }
+      close();
+    }
+    return levels_.at(wanted);
+  }
+
+ private:
+  struct Frame {
+    Plug plug;
+    std::vector<Plug> needs;
+    std::size_t next = 0;
+  };
+
+  /// The transform of an unknown counts one more than its parent.
+  bool is_solved(const Plug& plug) const {
+    return solved_[plug.node.index] && plug.attribute <= transform::kScale;
+  }
+
+  void open(const Plug& plug) {
+    if (!levels_.emplace(plug, 0).second) return;
+    std::vector<Plug> needs = needs_of(scene_, plug);
+    if (is_solved(plug)) needs.push_back({plug.node, transform::kParent});
+    stack_.push_back({plug, std::move(needs), 0});
+  }
+
+  void close() {
+    const Frame frame = std::move(stack_.back());
+    stack_.pop_back();
+    int level = 0;
+    for (const Plug& need : frame.needs) level = std::max(level, levels_.at(need));
+    levels_.at(frame.plug) = level + (is_solved(frame.plug) ? 1 : 0);
+  }
+
+  const scene::Scene& scene_;
+  std::vector<bool> solved_;  // by scene node
+  std::map<Plug, int> levels_;
+  std::vector<Frame> stack_;
+};
+
+}  // namespace
+
+int order(const scene::Scene& scene, std::vector<Unknown>& unknowns) {
+  Levels levels(scene, unknowns);
+  int count = 0;
+  for (Unknown& unknown : unknowns) {
+    unknown.level = levels.of(unknown.node);
+    count = std::max(count, unknown.level + 1);
+  }
+  std::stable_sort(unknowns.begin(), unknowns.end(),
+                   [](const Unknown& a, const Unknown& b) { return a.level < b.level; });
+  return count;
+}
+
+}  // namespace rigc::bake

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// What a transfer solves: which control says which joint, and in which order. Nothing here knows
+// modules: only constraints, solvers and what they are connected to.
+// Test: tests/bake/transfer_test.cpp
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "bake/transfer.h"
+#include "bake/transfer_targets.h"
+
+namespace rigc::bake {
+
+/// A control, or a joint's own transform, that is solved in each frame.
+struct Unknown {
+  enum class Rule : std::uint8_t {
+    own,     ///< a joint: what the rig does not drive of it
+    follow,  ///< a control that joints follow at a fixed offset
+    pole,    ///< a control that says the plane of a two-bone limb
+    look     ///< a control that a joint looks at
+  };
+  scene::NodeId node;
+  Rule rule = Rule::follow;
+  bool moves = false, turns = false, scales = false;  ///< what of it is solved
+  int level = 0;                                      ///< those below must be solved before
+  int turn_aim = -1;    ///< joint that it turns (indices of aims); of `own` and `look` the joint
+  math::Affine offset;  ///< that joint seen from the control
+  int move_aim = -1;    ///< joint that it moves
+  math::Vec3 joint_point, control_point;  ///< which are to meet, in their spaces
+  // Of a pole: joints of the limb, the middle seen from the start's joint, and how the start's
+  // joint stands on its bone.
+  int start = -1, middle = -1, end = -1;
+  math::Vec3 end_point;    ///< of the limb, in the space of joint `end`
+  math::Quat bone_offset;  ///< joint's rest rotation seen from the bone's frame; look: eye's
+  double distance = 0;     ///< of the pole from the middle joint, of the target from the eye
+};
+
+struct TransferPlan {
+  std::vector<Unknown> unknowns;  ///< by level
+  int levels = 0;
+};
+
+/// `switches`: values that hold in every frame.
+std::optional<TransferPlan> make_plan(const scene::Scene& scene, const std::vector<int>& nodes,
+                                      const std::vector<Aim>& aims,
+                                      const std::vector<SwitchValue>& switches,
+                                      Diagnostics& diagnostics);
+
+}  // namespace rigc::bake

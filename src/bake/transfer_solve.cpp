@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// Solves the unknowns of a transfer. Each level is a program of its own, which computes no more
+// than the parents of that level. Test: tests/bake/transfer_test.cpp
+#include "bake/transfer_solve.h"
+
+#include <algorithm>
+
+#include "eval/evaluate.h"
+
+namespace rigc::bake {
+namespace {
+
+using math::Affine;
+using math::Vec3;
+using scene::Plug;
+namespace transform = scene::transform;
+
+/// Heights of a middle joint above the line from start to end, in lengths of the limb, below which
+/// the start's joint says the plane of the limb; above twice of it the three joints do.
+constexpr double kStraight = 1e-5;
+
+Vec3 perpendicular_part(Vec3 v, Vec3 unit) { return v - unit * math::dot(v, unit); }
+
+/// Worlds of all aims in one frame.
+class Pose {
+ public:
+  Pose(const std::vector<std::vector<Affine>>& worlds, std::size_t frame)
+      : worlds_(worlds), frame_(frame) {}
+  const Affine& operator[](int aim) const { return worlds_[static_cast<std::size_t>(aim)][frame_]; }
+
+ private:
+  const std::vector<std::vector<Affine>>& worlds_;
+  std::size_t frame_;
+};
+
+math::Trs follow(const Unknown& u, const Pose& pose, const Affine& parent, math::Trs local) {
+  const Affine to_parent = math::inverse(parent);
+  if (u.turns || u.scales) {
+    const math::Mat3 wanted = pose[u.turn_aim].linear * math::inverse(u.offset.linear);
+    const math::Trs found = math::decompose({to_parent.linear * wanted, {}});
+    if (u.turns) local.rotation = found.rotation;
+    if (u.scales) local.scale = found.scale;
+  }
+  if (!u.moves) return local;
+  const math::Mat3 axes = math::compose({{}, local.rotation, local.scale}).linear;
+  local.translation = to_parent * (pose[u.move_aim] * u.joint_point) - axes * u.control_point;
+  return local;
+}
+
+/// The side of the line from start to end where the middle joint is, a unit vector.
+Vec3 bent_side(const Unknown& u, const Pose& pose, Vec3 direction, double length) {
+  const Vec3 to_middle = pose[u.middle].origin - pose[u.start].origin;
+  const Vec3 out = perpendicular_part(to_middle, direction);
+  const double height = math::length(out);
+  // The bone's frame has its z along the normal of the plane.
+  const math::Mat3 axes = math::orthonormal(pose[u.start].linear) *
+                          math::transposed(math::matrix(math::normalised(u.bone_offset)));
+  const Vec3 turned =
+      math::normalised(math::cross(axes.z, direction), math::perpendicular(direction));
+  const double weight = std::clamp(height / (kStraight * length) - 1, 0.0, 1.0);
+  if (weight == 0) return turned;
+  const Vec3 mixed = out * (weight / height) + turned * (1 - weight);
+  return math::normalised(perpendicular_part(mixed, direction), turned);
+}
+
+math::Trs pole(const Unknown& u, const Pose& pose, const Affine& parent, math::Trs local) {
+  const Vec3 start = pose[u.start].origin, middle = pose[u.middle].origin;
+  const Vec3 span = pose[u.end] * u.end_point - start;
+  const Vec3 direction = math::normalised(span, math::normalised(middle - start));
+  const double length = math::length(middle - start) + math::length(span);
+  const Vec3 side = bent_side(u, pose, direction, length);
+  const Vec3 foot = start + direction * math::dot(middle - start, direction);
+  const double out = math::dot(middle - foot, side);
+  local.translation = math::inverse(parent) * (foot + side * (out + u.distance));
+  return local;
+}
+
+math::Trs look(const Unknown& u, const Pose& pose, const Affine& parent, math::Trs local) {
+  const math::Mat3 axes = math::orthonormal(pose[u.turn_aim].linear) *
+                          math::transposed(math::matrix(math::normalised(u.bone_offset)));
+  const Vec3 target = pose[u.turn_aim].origin + axes.x * u.distance;
+  local.translation = math::inverse(parent) * target;
+  return local;
+}
+
+math::Trs own(const Unknown& u, const Pose& pose, const Affine& parent, math::Trs local) {
+  const math::Trs found = math::decompose(math::inverse(parent) * pose[u.turn_aim]);
+  if (u.moves) local.translation = found.translation;
+  if (u.turns) local.rotation = found.rotation;
+  if (u.scales) local.scale = found.scale;
+  return local;
+}
+
+math::Trs solve_one(const Unknown& u, const Pose& pose, const Affine& parent,
+                    const math::Trs& rest) {
+  switch (u.rule) {
+    case Unknown::Rule::own:
+      return own(u, pose, parent, rest);
+    case Unknown::Rule::pole:
+      return pole(u, pose, parent, rest);
+    case Unknown::Rule::look:
+      return look(u, pose, parent, rest);
+    case Unknown::Rule::follow:
+      break;
+  }
+  return follow(u, pose, parent, rest);
+}
+
+Affine affine_at(const double* rows, int lane) {
+  double n[12];
+  eval::get_lane(rows, lane, n, 12);
+  return {{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}}, {n[9], n[10], n[11]}};
+}
+
+class Solver {
+ public:
+  Solver(const scene::Scene& scene, const SolveInput& input)
+      : scene_(scene), input_(input), unknowns_(input.plan.unknowns) {
+    locals_.assign(unknowns_.size(), std::vector<math::Trs>(input.times.size()));
+  }
+
+  bool solve_level(int level, Diagnostics& diagnostics) {
+    const auto below = [](const Unknown& u, int at) { return u.level < at; };
+    const auto at = [&](int l) {
+      return static_cast<std::size_t>(
+          std::lower_bound(unknowns_.begin(), unknowns_.end(), l, below) - unknowns_.begin());
+    };
+    const std::size_t first = at(level), last = at(level + 1);
+    const auto program = eval::compile(scene_, request(first, last), diagnostics);
+    if (!program) return false;
+    const auto set = [&](eval::Instance& instance, std::size_t frame, int lane) {
+      set_inputs(instance, first, frame, lane);
+    };
+    const auto take = [&](const eval::Instance& instance, std::size_t frame, int lane) {
+      const Pose pose(input_.worlds, frame);
+      for (std::size_t i = first; i < last; ++i) {
+        const Affine parent = affine_at(instance.output(i - first), lane);
+        keep(i, frame, solve_one(unknowns_[i], pose, parent, scene_.local(unknowns_[i].node)));
+      }
+    };
+    eval::for_frames(*program, input_.times.size(), set, take);
+    return true;
+  }
+
+  std::vector<std::vector<math::Trs>> take_locals() { return std::move(locals_); }
+
+ private:
+  /// Parents of unknowns `first` to `last`, from what is known of those before.
+  eval::Request request(std::size_t first, std::size_t last) const {
+    eval::Request request;
+    for (const eval::ClipInput& input : input_.clip) request.inputs.push_back(input.plug);
+    for (const SwitchValue& value : input_.switches) request.inputs.push_back(value.attribute);
+    for (std::size_t i = 0; i < first; ++i) {
+      const Unknown& u = unknowns_[i];
+      if (u.moves) request.inputs.push_back({u.node, transform::kTranslate});
+      if (u.turns) request.inputs.push_back({u.node, transform::kRotation});
+      if (u.scales) request.inputs.push_back({u.node, transform::kScale});
+    }
+    for (std::size_t i = first; i < last; ++i)
+      request.outputs.push_back({unknowns_[i].node, transform::kParent});
+    return request;
+  }
+
+  void set_inputs(eval::Instance& instance, std::size_t count, std::size_t frame, int lane) const {
+    std::size_t at = 0;
+    for (const eval::ClipInput& input : input_.clip) {
+      double n[4];
+      const bool rotation = input.plug.attribute == transform::kRotation;
+      anim::sample(*input.curve, rotation, input_.times[frame], n);
+      eval::set_lane(instance.input(at++), lane, n, input.curve->width);
+    }
+    for (const SwitchValue& value : input_.switches)
+      eval::set_lane(instance.input(at++), lane, &value.value, 1);
+    for (std::size_t i = 0; i < count; ++i) {
+      const math::Trs& local = locals_[i][frame];
+      const double t[3] = {local.translation.x, local.translation.y, local.translation.z};
+      const double r[4] = {local.rotation.x, local.rotation.y, local.rotation.z, local.rotation.w};
+      const double s[3] = {local.scale.x, local.scale.y, local.scale.z};
+      if (unknowns_[i].moves) eval::set_lane(instance.input(at++), lane, t, 3);
+      if (unknowns_[i].turns) eval::set_lane(instance.input(at++), lane, r, 4);
+      if (unknowns_[i].scales) eval::set_lane(instance.input(at++), lane, s, 3);
+    }
+  }
+
+  /// Of a rotation and its negative the one nearer to the frame before.
+  void keep(std::size_t unknown, std::size_t frame, math::Trs local) {
+    const math::Quat before = frame == 0 ? scene_.local(unknowns_[unknown].node).rotation
+                                         : locals_[unknown][frame - 1].rotation;
+    if (math::dot(before, local.rotation) < 0) local.rotation = -local.rotation;
+    locals_[unknown][frame] = local;
+  }
+
+  const scene::Scene& scene_;
+  const SolveInput& input_;
+  const std::vector<Unknown>& unknowns_;
+  std::vector<std::vector<math::Trs>> locals_;
+};
+
+}  // namespace
+
+std::optional<std::vector<std::vector<math::Trs>>> solve(const scene::Scene& scene,
+                                                         const SolveInput& input,
+                                                         Diagnostics& diagnostics) {
+  Solver solver(scene, input);
+  for (int level = 0; level < input.plan.levels; ++level)
+    if (!solver.solve_level(level, diagnostics)) return std::nullopt;
+  return solver.take_locals();
+}
+
+}  // namespace rigc::bake

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Solves the unknowns of a transfer frame by frame, level by level: with the worlds of their
+// parents as the rig evaluates them. Test: tests/bake/transfer_test.cpp
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "bake/transfer_plan.h"
+#include "eval/clip_inputs.h"
+
+namespace rigc::bake {
+
+struct SolveInput {
+  const TransferPlan& plan;
+  const std::vector<std::vector<math::Affine>>& worlds;  ///< of the aims, [aims][frames]
+  const std::vector<eval::ClipInput>& clip;              ///< what else the clip moves
+  const std::vector<SwitchValue>& switches;
+  const std::vector<double>& times;  ///< seconds
+};
+
+/// Local transforms, [unknowns][frames]; rotations continuous.
+std::optional<std::vector<std::vector<math::Trs>>> solve(const scene::Scene& scene,
+                                                         const SolveInput& input,
+                                                         Diagnostics& diagnostics);
+
+}  // namespace rigc::bake
