@@ -11,6 +11,7 @@
 #include "bake/frames.h"
 #include "bake/tracks.h"
 #include "bake/transfer_measure.h"
+#include "bake/transfer_plugs.h"
 #include "bake/transfer_solve.h"
 
 namespace rigc::bake {
@@ -18,7 +19,6 @@ namespace {
 
 using scene::NodeId;
 using scene::Plug;
-namespace transform = scene::transform;
 
 /// Curves that are neither steps nor lines are sampled this often.
 constexpr double kCubicRate = 60;
@@ -30,12 +30,6 @@ bool wants(const Unknown& u, anim::Path path) {
   return path == anim::Path::translation ? u.moves
          : path == anim::Path::rotation  ? u.turns
                                          : u.scales;
-}
-
-Plug plug_of(NodeId node, anim::Path path) {
-  return {node, path == anim::Path::translation ? transform::kTranslate
-                : path == anim::Path::rotation  ? transform::kRotation
-                                                : transform::kScale};
 }
 
 const anim::Curve* curve_on(const Aim& aim, anim::Path path) {
@@ -161,10 +155,7 @@ class Writer {
   /// Whether the rig or the transfer says where a joint is.
   bool is_solved(const Aim& aim) const {
     if (aim.animated() && !aim.direct) return true;
-    const auto& inputs = scene_[aim.id].inputs;
-    return std::any_of(inputs.begin(), inputs.end(), [](const scene::Connection& c) {
-      return c.to.attribute <= transform::kRotate;
-    });
+    return is_driven(scene_, aim.id);
   }
 
   void drop(int node, NodeId id) {
@@ -248,7 +239,7 @@ anim::Clip changed(const anim::Clip& clip, const Transferred& transferred) {
 /// Joints that the clip animates and the rig drives.
 std::size_t concerned(const scene::Scene& scene, const std::vector<Aim>& aims) {
   return static_cast<std::size_t>(std::count_if(aims.begin(), aims.end(), [&](const Aim& aim) {
-    return aim.animated() && !scene[aim.id].inputs.empty();
+    return aim.animated() && is_driven(scene, aim.id);
   }));
 }
 

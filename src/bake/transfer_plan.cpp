@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "bake/transfer_order.h"
+#include "bake/transfer_own.h"
+#include "bake/transfer_plugs.h"
 #include "eval/evaluate.h"
 
 namespace rigc::bake {
@@ -17,6 +20,10 @@ using scene::Plug;
 namespace transform = scene::transform;
 namespace constraint = scene::constraint;
 namespace ik2 = scene::ik2;
+
+/// How far joints may be off because transforms of their own are left out, in sizes of the
+/// character: with rounding it stays below 1e-5.
+constexpr double kLeftOut = 4e-6;
 
 /// A control that something is fixed to, and where that is seen from it.
 struct Carrier {
@@ -40,9 +47,10 @@ class Planner {
  public:
   Planner(const scene::Scene& scene, const std::vector<int>& nodes, const std::vector<Aim>& aims,
           const std::vector<SwitchValue>& switches, Diagnostics& diagnostics)
-      : scene_(scene), nodes_(nodes), aims_(aims), diagnostics_(diagnostics), noise_(scene, aims) {
+      : scene_(scene), nodes_(nodes), aims_(aims), diagnostics_(diagnostics) {
     for (const SwitchValue& value : switches) settings_.push_back({value.attribute, value.value});
     places_.assign(scene.size(), -1);
+    stay_ = negligible(scene, aims, kLeftOut * extent(scene, aims));
     for (std::size_t i = 0; i < aims.size(); ++i) places_[aims[i].id.index] = static_cast<int>(i);
   }
 
@@ -58,11 +66,7 @@ class Planner {
 
  private:
   bool is_driven(NodeId id, std::uint16_t attribute) const {
-    const auto& inputs = scene_[id].inputs;
-    return std::any_of(inputs.begin(), inputs.end(), [&](const scene::Connection& c) {
-      const bool euler = attribute == transform::kRotation && c.to.attribute == transform::kRotate;
-      return c.to.attribute == attribute || euler;
-    });
+    return bake::is_driven(scene_, {id, attribute});
   }
 
   /// Up from a node over transforms that are fixed to their parents, to a control of the file.
@@ -117,15 +121,11 @@ class Planner {
     bind_path(index, transform::kTranslate);
     bind_path(index, transform::kScale);
     const bool converted = aim.animated() && !aim.direct;
-    bool any = false;
-    for (const std::uint16_t path :
-         {transform::kTranslate, transform::kRotation, transform::kScale})
-      any = any || is_driven(aim.id, path);
-    if (!any && !converted) return;
+    if (!bake::is_driven(scene_, aim.id) && !converted) return;
     Unknown own;
-    own.moves = !is_driven(aim.id, transform::kTranslate) && !stays(aim, anim::Path::translation);
-    own.turns = !is_driven(aim.id, transform::kRotation) && !stays(aim, anim::Path::rotation);
-    own.scales = !is_driven(aim.id, transform::kScale) && !stays(aim, anim::Path::scale);
+    own.moves = is_own(index, anim::Path::translation);
+    own.turns = is_own(index, anim::Path::rotation);
+    own.scales = is_own(index, anim::Path::scale);
     if (!own.moves && !own.turns && !own.scales) return;
     own.node = aim.id;
     own.rule = Unknown::Rule::own;
@@ -133,8 +133,10 @@ class Planner {
     unknowns_.push_back(own);
   }
 
-  bool stays(const Aim& aim, anim::Path path) const {
-    return aim.direct && stays_as(aim, path, scene_.local(aim.id), noise_.of(aim.id, path));
+  /// Whether a joint needs a channel of its own.
+  bool is_own(int index, anim::Path path) const {
+    const NodeId joint = aims_[static_cast<std::size_t>(index)].id;
+    return !bake::is_driven(scene_, plug_of(joint, path)) && !stay_.contains({index, path});
   }
 
   void bind_path(int index, std::uint16_t path) {
@@ -229,7 +231,7 @@ class Planner {
   const std::vector<int>& nodes_;
   const std::vector<Aim>& aims_;
   Diagnostics& diagnostics_;
-  Noise noise_;
+  std::set<std::pair<int, anim::Path>> stay_;  // of joints' own transforms
   std::vector<eval::Setting> settings_;
   std::vector<int> places_;  // in aims_, by scene node
   std::vector<Unknown> unknowns_;

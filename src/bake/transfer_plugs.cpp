@@ -57,4 +57,26 @@ std::vector<Plug> needs_of(const scene::Scene& scene, const Plug& plug) {
   return out;
 }
 
+bool is_driven(const scene::Scene& scene, const Plug& plug) {
+  const auto& inputs = scene[plug.node].inputs;
+  return std::any_of(inputs.begin(), inputs.end(), [&](const scene::Connection& c) {
+    const bool euler =
+        plug.attribute == transform::kRotation && c.to.attribute == transform::kRotate;
+    return c.to.attribute == plug.attribute || euler;
+  });
+}
+
+bool is_driven(const scene::Scene& scene, NodeId id) {
+  const auto& inputs = scene[id].inputs;
+  return std::any_of(inputs.begin(), inputs.end(), [](const scene::Connection& c) {
+    return c.to.attribute <= transform::kRotate;
+  });
+}
+
+Plug plug_of(NodeId id, anim::Path path) {
+  return {id, path == anim::Path::translation ? transform::kTranslate
+              : path == anim::Path::rotation  ? transform::kRotation
+                                              : transform::kScale};
+}
+
 }  // namespace rigc::bake

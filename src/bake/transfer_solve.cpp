@@ -33,13 +33,17 @@ class Pose {
   std::size_t frame_;
 };
 
+/// A constraint takes a rotation from a matrix by its x, then its y. So it comes back also where
+/// joint and control hang under uneven scale, by the same rule from what the control's parent sees.
 math::Trs follow(const Unknown& u, const Pose& pose, const Affine& parent, math::Trs local) {
   const Affine to_parent = math::inverse(parent);
-  if (u.turns || u.scales) {
+  if (u.turns) {
+    const math::Mat3 seen = math::orthonormal(to_parent.linear * pose[u.turn_aim].linear);
+    local.rotation = math::quaternion(seen * math::transposed(math::orthonormal(u.offset.linear)));
+  }
+  if (u.scales) {
     const math::Mat3 wanted = pose[u.turn_aim].linear * math::inverse(u.offset.linear);
-    const math::Trs found = math::decompose({to_parent.linear * wanted, {}});
-    if (u.turns) local.rotation = found.rotation;
-    if (u.scales) local.scale = found.scale;
+    local.scale = math::decompose({to_parent.linear * wanted, {}}).scale;
   }
   if (!u.moves) return local;
   const math::Mat3 axes = math::compose({{}, local.rotation, local.scale}).linear;

@@ -129,15 +129,23 @@ std::vector<Aim> find_aims(const scene::Scene& scene, const std::vector<int>& no
   return Finder(scene, nodes, clip, standings).find();
 }
 
-bool stays_as(const Aim& aim, anim::Path path, const math::Trs& local, double noise) {
+double largest_difference(const Aim& aim, anim::Path path, const math::Trs& local) {
   const anim::Curve* curve = path == anim::Path::translation ? aim.translation
                              : path == anim::Path::rotation  ? aim.rotation
                                                              : aim.scale;
-  const auto near = [&](const math::Trs& trs) { return differ(trs, local, path) <= noise; };
-  if (!curve) return near(local_at(aim, 0));
-  if (curve->interpolation == anim::Interpolation::cubic) return false;
-  return std::all_of(curve->times->begin(), curve->times->end(),
-                     [&](float time) { return near(local_at(aim, static_cast<double>(time))); });
+  if (!curve) return differ(local_at(aim, 0), local, path);
+  double largest = 0;
+  const auto look = [&](double time) {
+    largest = std::max(largest, differ(local_at(aim, time), local, path));
+  };
+  for (std::size_t i = 0; i < curve->times->size(); ++i) {
+    const auto time = static_cast<double>((*curve->times)[i]);
+    look(time);
+    if (curve->interpolation != anim::Interpolation::cubic || i == 0) continue;
+    const auto before = static_cast<double>((*curve->times)[i - 1]);
+    for (double part = 1; part < 8; part += 1) look(before + (time - before) * part / 8);
+  }
+  return largest;
 }
 
 double differ(const math::Trs& a, const math::Trs& b, anim::Path path) {

@@ -33,8 +33,8 @@ std::vector<std::vector<math::Affine>> play(const std::vector<Aim>& aims,
 /// Largest difference of a number in two transforms' translations, rotations or scales.
 double differ(const math::Trs& a, const math::Trs& b, anim::Path path);
 
-/// Whether what a joint plays of one path never differs from a transform by more than `noise`.
-bool stays_as(const Aim& aim, anim::Path path, const math::Trs& local, double noise);
+/// The same between a transform and what a joint plays, at its keys (and between cubic ones).
+double largest_difference(const Aim& aim, anim::Path path, const math::Trs& local);
 
 /// What counts as rounding in a node's numbers.
 class Noise {
