@@ -270,7 +270,8 @@ std::optional<Transferred> transfer(const scene::Scene& scene, const std::vector
   const auto all = eval::clip_inputs(scene, nodes, clip);
   const auto others = other_inputs(all, *plan, options.switches);
   const auto worlds = play(aims, *times);
-  const auto locals = solve(scene, {*plan, worlds, others, options.switches, *times}, diagnostics);
+  const auto locals =
+      solve(scene, {*plan, aims, worlds, others, options.switches, *times}, diagnostics);
   if (!locals) return std::nullopt;
 
   Writer writer(scene, nodes, aims, clip, *times, steps);

@@ -19,12 +19,35 @@ class Levels {
  public:
   Levels(const scene::Scene& scene, const std::vector<Unknown>& unknowns) : scene_(scene) {
     solved_.assign(scene.size(), false);
-    for (const Unknown& unknown : unknowns) solved_[unknown.node.index] = true;
+    for (const Unknown& unknown : unknowns) {
+      solved_[unknown.node.index] = true;
+      needs_.emplace(unknown.node, needs_of_unknown(unknown));
+    }
   }
 
-  /// How many unknowns, one above the other, a node's parent comes from.
-  int of(NodeId node) {
-    const Plug wanted{node, transform::kParent};
+  /// How many unknowns, one above the other, an unknown comes from.
+  int of(NodeId unknown) {
+    int level = 0;
+    for (const Plug& need : needs_.at(unknown)) level = std::max(level, of(need));
+    return level;
+  }
+
+ private:
+  struct Frame {
+    Plug plug;
+    std::vector<Plug> needs;
+    std::size_t next = 0;
+  };
+
+  static std::vector<Plug> needs_of_unknown(const Unknown& unknown) {
+    if (unknown.plays) return {};
+    std::vector<Plug> needs{{unknown.node, transform::kParent}};
+    if (!unknown.solver.valid()) return needs;
+    for (const std::uint16_t read : kLimbReads) needs.push_back({unknown.solver, read});
+    return needs;
+  }
+
+  int of(const Plug& wanted) {
     open(wanted);
     while (!stack_.empty()) {
       Frame& frame = stack_.back();
@@ -38,14 +61,7 @@ class Levels {
     return levels_.at(wanted);
   }
 
- private:
-  struct Frame {
-    Plug plug;
-    std::vector<Plug> needs;
-    std::size_t next = 0;
-  };
-
-  /// The transform of an unknown counts one more than its parent.
+  /// The transform of an unknown counts one more than what it comes from.
   bool is_solved(const Plug& plug) const {
     return solved_[plug.node.index] && plug.attribute <= transform::kScale;
   }
@@ -53,7 +69,10 @@ class Levels {
   void open(const Plug& plug) {
     if (!levels_.emplace(plug, 0).second) return;
     std::vector<Plug> needs = needs_of(scene_, plug);
-    if (is_solved(plug)) needs.push_back({plug.node, transform::kParent});
+    if (is_solved(plug)) {
+      const std::vector<Plug>& own = needs_.at(plug.node);
+      needs.insert(needs.end(), own.begin(), own.end());
+    }
     stack_.push_back({plug, std::move(needs), 0});
   }
 
@@ -66,7 +85,8 @@ class Levels {
   }
 
   const scene::Scene& scene_;
-  std::vector<bool> solved_;  // by scene node
+  std::vector<bool> solved_;                   // by scene node
+  std::map<NodeId, std::vector<Plug>> needs_;  // of unknowns
   std::map<Plug, int> levels_;
   std::vector<Frame> stack_;
 };

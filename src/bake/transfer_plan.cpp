@@ -49,9 +49,7 @@ class Planner {
           const std::vector<SwitchValue>& switches, Diagnostics& diagnostics)
       : scene_(scene), nodes_(nodes), aims_(aims), diagnostics_(diagnostics) {
     for (const SwitchValue& value : switches) settings_.push_back({value.attribute, value.value});
-    places_.assign(scene.size(), -1);
     stay_ = negligible(scene, aims, kLeftOut * extent(scene, aims));
-    for (std::size_t i = 0; i < aims.size(); ++i) places_[aims[i].id.index] = static_cast<int>(i);
   }
 
   std::optional<TransferPlan> plan() {
@@ -130,6 +128,7 @@ class Planner {
     own.node = aim.id;
     own.rule = Unknown::Rule::own;
     own.turn_aim = index;
+    own.plays = aim.direct;
     unknowns_.push_back(own);
   }
 
@@ -197,34 +196,29 @@ class Planner {
     if (solved.start < 0 || solved.middle < 0) return;
     const auto goal = scene_.source({solved.solver, ik2::kGoal});
     const auto pole = scene_.source({solved.solver, ik2::kPole});
-    const auto end_from = scene_.source({solved.solver, ik2::kEnd});
-    int end = end_from ? places_[end_from->node.index] : -1;
-    math::Vec3 end_point;
-    if (end < 0) {
-      end = solved.middle;
-      end_point = std::get<math::Vec3>(scene_.value({solved.solver, ik2::kEnd}));
-    }
     if (const auto by = goal ? carrier(goal->node) : std::nullopt) {
       Unknown& u = unknown(by->control, Unknown::Rule::follow);
       u.moves = true;
-      u.move_aim = end;
-      u.joint_point = end_point;
       u.control_point =
           by->offset * std::get<math::Vec3>(scene_.value({solved.solver, ik2::kGoalOffset}));
+      set_limb(u, solved);
     }
     const bool keyed =
         pole && scene_[pole->node].kind == Kind::control && nodes_[pole->node.index] >= 0;
     if (!keyed) return;
     Unknown& u = unknown(pole->node, Unknown::Rule::pole);
     u.moves = true;
-    u.start = solved.start;
-    u.middle = solved.middle;
-    u.end = end;
-    u.end_point = end_point;
     u.bone_offset = std::get<math::Quat>(scene_.value({solved.solver, ik2::kOffsets, 0}));
     u.distance =
         math::length(scene_.rest_world(pole->node).origin -
                      scene_.rest_world(aims_[static_cast<std::size_t>(solved.middle)].id).origin);
+    set_limb(u, solved);
+  }
+
+  static void set_limb(Unknown& u, const Solved& solved) {
+    u.solver = solved.solver;
+    u.start = solved.start;
+    u.middle = solved.middle;
   }
 
   const scene::Scene& scene_;
@@ -233,7 +227,6 @@ class Planner {
   Diagnostics& diagnostics_;
   std::set<std::pair<int, anim::Path>> stay_;  // of joints' own transforms
   std::vector<eval::Setting> settings_;
-  std::vector<int> places_;  // in aims_, by scene node
   std::vector<Unknown> unknowns_;
   std::map<NodeId, std::size_t> by_node_;
   std::map<std::uint32_t, Solved> solvers_;  // by index of the solver

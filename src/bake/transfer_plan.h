@@ -16,24 +16,25 @@ namespace rigc::bake {
 struct Unknown {
   enum class Rule : std::uint8_t {
     own,     ///< a joint: what the rig does not drive of it
-    follow,  ///< a control that joints follow at a fixed offset
+    follow,  ///< a control that joints follow at a fixed offset, or that a limb reaches for
     pole,    ///< a control that says the plane of a two-bone limb
     look     ///< a control that a joint looks at
   };
   scene::NodeId node;
   Rule rule = Rule::follow;
   bool moves = false, turns = false, scales = false;  ///< what of it is solved
-  int level = 0;                                      ///< those below must be solved before
+  bool plays = false;   ///< of `own`: what the file plays is it, whatever is above the joint
+  int level = 0;        ///< those below must be solved before
   int turn_aim = -1;    ///< joint that it turns (indices of aims); of `own` and `look` the joint
   math::Affine offset;  ///< that joint seen from the control
   int move_aim = -1;    ///< joint that it moves
-  math::Vec3 joint_point, control_point;  ///< which are to meet, in their spaces
-  // Of a pole: joints of the limb, the middle seen from the start's joint, and how the start's
-  // joint stands on its bone.
-  int start = -1, middle = -1, end = -1;
-  math::Vec3 end_point;    ///< of the limb, in the space of joint `end`
-  math::Quat bone_offset;  ///< joint's rest rotation seen from the bone's frame; look: eye's
-  double distance = 0;     ///< of the pole from the middle joint, of the target from the eye
+  math::Vec3 control_point;  ///< of the control, where that joint is to be
+  /// Of a pole, and of a control that a limb's end reaches for: what solves the limb.
+  scene::NodeId solver;
+  int start = -1, middle = -1;  ///< joints of that limb
+  math::Quat
+      bone_offset;      ///< the joint's rest rotation seen from its bone's (look: the eye's) frame
+  double distance = 0;  ///< of the pole from the middle joint, of the target from the eye
 };
 
 struct TransferPlan {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "bake/transfer_limb.h"
+#include "bake/transfer_order.h"
 #include "eval/evaluate.h"
 
 namespace rigc::bake {
@@ -14,12 +16,6 @@ using math::Affine;
 using math::Vec3;
 using scene::Plug;
 namespace transform = scene::transform;
-
-/// Heights of a middle joint above the line from start to end, in lengths of the limb, below which
-/// the start's joint says the plane of the limb; above twice of it the three joints do.
-constexpr double kStraight = 1e-5;
-
-Vec3 perpendicular_part(Vec3 v, Vec3 unit) { return v - unit * math::dot(v, unit); }
 
 /// Worlds of all aims in one frame.
 class Pose {
@@ -33,10 +29,16 @@ class Pose {
   std::size_t frame_;
 };
 
+/// What the rig says of an unknown's surroundings in one frame.
+struct Known {
+  Affine parent;
+  Limb limb;  ///< of those that move one
+};
+
 /// A constraint takes a rotation from a matrix by its x, then its y. So it comes back also where
 /// joint and control hang under uneven scale, by the same rule from what the control's parent sees.
-math::Trs follow(const Unknown& u, const Pose& pose, const Affine& parent, math::Trs local) {
-  const Affine to_parent = math::inverse(parent);
+math::Trs follow(const Unknown& u, const Pose& pose, const Known& known, math::Trs local) {
+  const Affine to_parent = math::inverse(known.parent);
   if (u.turns) {
     const math::Mat3 seen = math::orthonormal(to_parent.linear * pose[u.turn_aim].linear);
     local.rotation = math::quaternion(seen * math::transposed(math::orthonormal(u.offset.linear)));
@@ -47,73 +49,80 @@ math::Trs follow(const Unknown& u, const Pose& pose, const Affine& parent, math:
   }
   if (!u.moves) return local;
   const math::Mat3 axes = math::compose({{}, local.rotation, local.scale}).linear;
-  local.translation = to_parent * (pose[u.move_aim] * u.joint_point) - axes * u.control_point;
+  if (u.solver.valid()) {
+    const Bones bones = bones_of(known.limb, pose[u.start], pose[u.middle]);
+    const Affine to_point{known.parent.linear,
+                          known.parent.linear * (axes * u.control_point) + known.parent.origin};
+    local.translation = rounded_goal(bones, to_point);
+    return local;
+  }
+  local.translation = to_parent * pose[u.move_aim].origin - axes * u.control_point;
   return local;
 }
 
-/// The side of the line from start to end where the middle joint is, a unit vector.
-Vec3 bent_side(const Unknown& u, const Pose& pose, Vec3 direction, double length) {
-  const Vec3 to_middle = pose[u.middle].origin - pose[u.start].origin;
-  const Vec3 out = perpendicular_part(to_middle, direction);
-  const double height = math::length(out);
-  // The bone's frame has its z along the normal of the plane.
-  const math::Mat3 axes = math::orthonormal(pose[u.start].linear) *
-                          math::transposed(math::matrix(math::normalised(u.bone_offset)));
-  const Vec3 turned =
-      math::normalised(math::cross(axes.z, direction), math::perpendicular(direction));
-  const double weight = std::clamp(height / (kStraight * length) - 1, 0.0, 1.0);
-  if (weight == 0) return turned;
-  const Vec3 mixed = out * (weight / height) + turned * (1 - weight);
-  return math::normalised(perpendicular_part(mixed, direction), turned);
-}
-
-math::Trs pole(const Unknown& u, const Pose& pose, const Affine& parent, math::Trs local) {
-  const Vec3 start = pose[u.start].origin, middle = pose[u.middle].origin;
-  const Vec3 span = pose[u.end] * u.end_point - start;
-  const Vec3 direction = math::normalised(span, math::normalised(middle - start));
-  const double length = math::length(middle - start) + math::length(span);
-  const Vec3 side = bent_side(u, pose, direction, length);
-  const Vec3 foot = start + direction * math::dot(middle - start, direction);
-  const double out = math::dot(middle - foot, side);
-  local.translation = math::inverse(parent) * (foot + side * (out + u.distance));
+math::Trs pole(const Unknown& u, const Pose& pose, const Known& known, math::Trs local) {
+  const Bones bones = bones_of(known.limb, pose[u.start], pose[u.middle]);
+  const Vec3 side = bent_side(bones, pose[u.start], u.bone_offset);
+  const Vec3 direction = math::normalised(bones.end - bones.start, bones.first);
+  const Vec3 to_middle = bones.middle - bones.start;
+  const Vec3 foot = bones.start + direction * math::dot(to_middle, direction);
+  const double out = math::dot(bones.middle - foot, side);
+  local.translation = math::inverse(known.parent) * (foot + side * (out + u.distance));
   return local;
 }
 
-math::Trs look(const Unknown& u, const Pose& pose, const Affine& parent, math::Trs local) {
+math::Trs look(const Unknown& u, const Pose& pose, const Known& known, math::Trs local) {
   const math::Mat3 axes = math::orthonormal(pose[u.turn_aim].linear) *
                           math::transposed(math::matrix(math::normalised(u.bone_offset)));
   const Vec3 target = pose[u.turn_aim].origin + axes.x * u.distance;
-  local.translation = math::inverse(parent) * target;
+  local.translation = math::inverse(known.parent) * target;
   return local;
 }
 
-math::Trs own(const Unknown& u, const Pose& pose, const Affine& parent, math::Trs local) {
-  const math::Trs found = math::decompose(math::inverse(parent) * pose[u.turn_aim]);
-  if (u.moves) local.translation = found.translation;
-  if (u.turns) local.rotation = found.rotation;
-  if (u.scales) local.scale = found.scale;
+/// `played`: what the joint plays, seen from its parent in the scene.
+math::Trs own(const Unknown& u, const math::Trs& played, math::Trs local) {
+  if (u.moves) local.translation = played.translation;
+  if (u.turns) local.rotation = played.rotation;
+  if (u.scales) local.scale = played.scale;
   return local;
 }
 
-math::Trs solve_one(const Unknown& u, const Pose& pose, const Affine& parent,
-                    const math::Trs& rest) {
+math::Trs solve_one(const Unknown& u, const Pose& pose, const Known& known, const math::Trs& rest) {
   switch (u.rule) {
     case Unknown::Rule::own:
-      return own(u, pose, parent, rest);
+      return own(u, math::decompose(math::inverse(known.parent) * pose[u.turn_aim]), rest);
     case Unknown::Rule::pole:
-      return pole(u, pose, parent, rest);
+      return pole(u, pose, known, rest);
     case Unknown::Rule::look:
-      return look(u, pose, parent, rest);
+      return look(u, pose, known, rest);
     case Unknown::Rule::follow:
       break;
   }
-  return follow(u, pose, parent, rest);
+  return follow(u, pose, known, rest);
 }
 
 Affine affine_at(const double* rows, int lane) {
   double n[12];
   eval::get_lane(rows, lane, n, 12);
   return {{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}}, {n[9], n[10], n[11]}};
+}
+
+Vec3 vector_at(const double* rows, int lane) {
+  double n[3];
+  eval::get_lane(rows, lane, n, 3);
+  return {n[0], n[1], n[2]};
+}
+
+/// Outputs from `at` on, which goes past them.
+Known read_known(const eval::Instance& instance, const Unknown& u, std::size_t& at, int lane) {
+  Known known;
+  known.parent = affine_at(instance.output(at++), lane);
+  if (!u.solver.valid()) return known;
+  known.limb.base = affine_at(instance.output(at++), lane);
+  for (Vec3* vector : {&known.limb.start, &known.limb.middle, &known.limb.end,
+                       &known.limb.start_scale, &known.limb.middle_scale})
+    *vector = vector_at(instance.output(at++), lane);
+  return known;
 }
 
 class Solver {
@@ -137,9 +146,12 @@ class Solver {
     };
     const auto take = [&](const eval::Instance& instance, std::size_t frame, int lane) {
       const Pose pose(input_.worlds, frame);
+      std::size_t output = 0;
       for (std::size_t i = first; i < last; ++i) {
-        const Affine parent = affine_at(instance.output(i - first), lane);
-        keep(i, frame, solve_one(unknowns_[i], pose, parent, scene_.local(unknowns_[i].node)));
+        const Unknown& u = unknowns_[i];
+        const Known known = read_known(instance, u, output, lane);
+        const math::Trs rest = scene_.local(u.node);
+        keep(i, frame, u.plays ? own(u, played(u, frame), rest) : solve_one(u, pose, known, rest));
       }
     };
     eval::for_frames(*program, input_.times.size(), set, take);
@@ -149,6 +161,10 @@ class Solver {
   std::vector<std::vector<math::Trs>> take_locals() { return std::move(locals_); }
 
  private:
+  math::Trs played(const Unknown& u, std::size_t frame) const {
+    return local_at(input_.aims[static_cast<std::size_t>(u.turn_aim)], input_.times[frame]);
+  }
+
   /// Parents of unknowns `first` to `last`, from what is known of those before.
   eval::Request request(std::size_t first, std::size_t last) const {
     eval::Request request;
@@ -160,8 +176,12 @@ class Solver {
       if (u.turns) request.inputs.push_back({u.node, transform::kRotation});
       if (u.scales) request.inputs.push_back({u.node, transform::kScale});
     }
-    for (std::size_t i = first; i < last; ++i)
+    for (std::size_t i = first; i < last; ++i) {
       request.outputs.push_back({unknowns_[i].node, transform::kParent});
+      if (!unknowns_[i].solver.valid()) continue;
+      for (const std::uint16_t read : kLimbReads)
+        request.outputs.push_back({unknowns_[i].solver, read});
+    }
     return request;
   }
 
@@ -186,12 +206,22 @@ class Solver {
     }
   }
 
+  /// What players read of it: so that the levels above make good what rounding does below.
+  static math::Trs as_written(const math::Trs& local) {
+    const auto number = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+    const auto vector = [&](Vec3 v) { return Vec3{number(v.x), number(v.y), number(v.z)}; };
+    const math::Quat& q = local.rotation;
+    return {vector(local.translation),
+            {number(q.x), number(q.y), number(q.z), number(q.w)},
+            vector(local.scale)};
+  }
+
   /// Of a rotation and its negative the one nearer to the frame before.
   void keep(std::size_t unknown, std::size_t frame, math::Trs local) {
     const math::Quat before = frame == 0 ? scene_.local(unknowns_[unknown].node).rotation
                                          : locals_[unknown][frame - 1].rotation;
     if (math::dot(before, local.rotation) < 0) local.rotation = -local.rotation;
-    locals_[unknown][frame] = local;
+    locals_[unknown][frame] = as_written(local);
   }
 
   const scene::Scene& scene_;

@@ -13,6 +13,7 @@ namespace rigc::bake {
 
 struct SolveInput {
   const TransferPlan& plan;
+  const std::vector<Aim>& aims;
   const std::vector<std::vector<math::Affine>>& worlds;  ///< of the aims, [aims][frames]
   const std::vector<eval::ClipInput>& clip;              ///< what else the clip moves
   const std::vector<SwitchValue>& switches;

@@ -38,25 +38,6 @@ bool is_bone(const scene::Scene& scene, NodeId id) {
   return false;
 }
 
-math::Trs local_at(const Aim& aim, double seconds) {
-  math::Trs local = aim.standing.local;
-  double n[4];
-  if (aim.translation) {
-    anim::sample(*aim.translation, false, seconds, n);
-    local.translation = {n[0], n[1], n[2]};
-  }
-  if (aim.rotation) {
-    anim::sample(*aim.rotation, true, seconds, n);
-    local.rotation = {n[0], n[1], n[2], n[3]};
-  }
-  if (aim.scale) {
-    anim::sample(*aim.scale, false, seconds, n);
-    local.scale = {n[0], n[1], n[2]};
-  }
-  local.rotation = math::normalised(local.rotation);
-  return local;
-}
-
 class Finder {
  public:
   Finder(const scene::Scene& scene, const std::vector<int>& nodes, const anim::Clip& clip,
@@ -122,6 +103,25 @@ NodeId transform_above(const scene::Scene& scene, NodeId id) {
   NodeId at = scene[id].parent;
   while (at.valid() && !scene::spec(scene[at].kind).is_transform) at = scene[at].parent;
   return at;
+}
+
+math::Trs local_at(const Aim& aim, double seconds) {
+  math::Trs local = aim.standing.local;
+  double n[4];
+  if (aim.translation) {
+    anim::sample(*aim.translation, false, seconds, n);
+    local.translation = {n[0], n[1], n[2]};
+  }
+  if (aim.rotation) {
+    anim::sample(*aim.rotation, true, seconds, n);
+    local.rotation = {n[0], n[1], n[2], n[3]};
+  }
+  if (aim.scale) {
+    anim::sample(*aim.scale, false, seconds, n);
+    local.scale = {n[0], n[1], n[2]};
+  }
+  local.rotation = math::normalised(local.rotation);
+  return local;
 }
 
 std::vector<Aim> find_aims(const scene::Scene& scene, const std::vector<int>& nodes,

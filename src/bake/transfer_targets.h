@@ -26,6 +26,9 @@ struct Aim {
 std::vector<Aim> find_aims(const scene::Scene& scene, const std::vector<int>& nodes,
                            const anim::Clip& clip, const std::vector<Standing>& standings);
 
+/// What a joint plays, seen from its parent in the file.
+math::Trs local_at(const Aim& aim, double seconds);
+
 /// Worlds in the rig's space, [aims][times].
 std::vector<std::vector<math::Affine>> play(const std::vector<Aim>& aims,
                                             const std::vector<double>& times);
