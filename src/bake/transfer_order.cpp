@@ -42,6 +42,7 @@ class Levels {
   static std::vector<Plug> needs_of_unknown(const Unknown& unknown) {
     if (unknown.plays) return {};
     std::vector<Plug> needs{{unknown.node, transform::kParent}};
+    if (unknown.relay.valid()) needs.push_back({unknown.relay, transform::kParent});
     if (!unknown.solver.valid()) return needs;
     for (const std::uint16_t read : kLimbReads) needs.push_back({unknown.solver, read});
     return needs;

@@ -158,7 +158,26 @@ class Planner {
     }
     if (target->source.attribute != transform::kWorld) return;
     const auto by = carrier(target->source.node);
-    if (by) follow(index, path, by->control, by->offset * target->offset);
+    if (by) return follow(index, path, by->control, by->offset * target->offset);
+    if (path == transform::kTranslate) bind_relay(index, target->source.node, target->offset);
+  }
+
+  /// A joint follows a transform that takes its translation from a control.
+  void bind_relay(int index, NodeId relay, const math::Affine& offset) {
+    const auto source = scene_.source({relay, transform::kTranslate});
+    const bool fixed =
+        !is_driven(relay, transform::kRotation) && !is_driven(relay, transform::kScale);
+    if (!source || source->attribute != transform::kTranslate || source->component >= 0 || !fixed)
+      return;
+    const NodeId control = source->node;
+    if (scene_[control].kind != Kind::control || nodes_[control.index] < 0) return;
+    Unknown& u = unknown(control, Unknown::Rule::follow);
+    if (u.move_aim >= 0) return;
+    u.moves = true;
+    u.move_aim = index;
+    u.relay = relay;
+    const math::Trs local = scene_.local(relay);
+    u.control_point = math::compose({{}, local.rotation, local.scale}).linear * offset.origin;
   }
 
   void follow(int index, std::uint16_t path, NodeId control, const math::Affine& offset) {

@@ -29,6 +29,8 @@ struct Unknown {
   math::Affine offset;  ///< that joint seen from the control
   int move_aim = -1;    ///< joint that it moves
   math::Vec3 control_point;  ///< of the control, where that joint is to be
+  /// A transform that has the control's translation and moves the joint; invalid: the control does.
+  scene::NodeId relay;
   /// Of a pole, and of a control that a limb's end reaches for: what solves the limb.
   scene::NodeId solver;
   int start = -1, middle = -1;  ///< joints of that limb

@@ -32,7 +32,8 @@ class Pose {
 /// What the rig says of an unknown's surroundings in one frame.
 struct Known {
   Affine parent;
-  Limb limb;  ///< of those that move one
+  Affine relay;  ///< parent of what moves the joint in place of the control
+  Limb limb;     ///< of those that move one
 };
 
 /// A constraint takes a rotation from a matrix by its x, then its y. So it comes back also where
@@ -48,6 +49,10 @@ math::Trs follow(const Unknown& u, const Pose& pose, const Known& known, math::T
     local.scale = math::decompose({to_parent.linear * wanted, {}}).scale;
   }
   if (!u.moves) return local;
+  if (u.relay.valid()) {
+    local.translation = math::inverse(known.relay) * pose[u.move_aim].origin - u.control_point;
+    return local;
+  }
   const math::Mat3 axes = math::compose({{}, local.rotation, local.scale}).linear;
   if (u.solver.valid()) {
     const Bones bones = bones_of(known.limb, pose[u.start], pose[u.middle]);
@@ -117,6 +122,7 @@ Vec3 vector_at(const double* rows, int lane) {
 Known read_known(const eval::Instance& instance, const Unknown& u, std::size_t& at, int lane) {
   Known known;
   known.parent = affine_at(instance.output(at++), lane);
+  if (u.relay.valid()) known.relay = affine_at(instance.output(at++), lane);
   if (!u.solver.valid()) return known;
   known.limb.base = affine_at(instance.output(at++), lane);
   for (Vec3* vector : {&known.limb.start, &known.limb.middle, &known.limb.end,
@@ -178,6 +184,8 @@ class Solver {
     }
     for (std::size_t i = first; i < last; ++i) {
       request.outputs.push_back({unknowns_[i].node, transform::kParent});
+      if (unknowns_[i].relay.valid())
+        request.outputs.push_back({unknowns_[i].relay, transform::kParent});
       if (!unknowns_[i].solver.valid()) continue;
       for (const std::uint16_t read : kLimbReads)
         request.outputs.push_back({unknowns_[i].solver, read});

@@ -118,13 +118,33 @@ void blend(Builder& b, const Limb& limb) {
   }
 }
 
+/// What a joint that the skeleton does not take along keeps its place under: the joint before, and
+/// the translation of the FK control, which so moves it off its place in FK and in IK. Clips of
+/// models whose feet hang under the root do that.
+NodeId make_place(Builder& b, const Limb& limb, std::size_t i) {
+  const math::Affine frame = rest(b, limb.fk[i]);
+  const NodeId zero = b.make({.kind = scene::Kind::transform,
+                              .role = "space",
+                              .joint = limb.joints[i],
+                              .parent = {},
+                              .suffix = "place_zero"});
+  hang(b, zero, limb.joints[i - 1], frame);
+  const NodeId place = b.make({.kind = scene::Kind::transform,
+                               .role = "space",
+                               .joint = limb.joints[i],
+                               .parent = zero,
+                               .suffix = "place"});
+  b.connect({limb.fk[i], transform::kTranslate}, {place, transform::kTranslate});
+  return place;
+}
+
 /// Lengths stay: a joint that the skeleton does not take along (a foot that hangs under the root)
 /// keeps its place seen from the joint before, the first from what the FK chain hangs on.
 void carry_joints(Builder& b, const Limb& limb) {
   for (std::size_t i = 0; i < 3; ++i) {
     const NodeId before = i == 0 ? limb.space : limb.joints[i - 1];
     if (carried_by(b, limb.joints[i], before)) continue;
-    carry(b, limb.joints[i], i == 0 ? limb.fk[0] : before);
+    carry(b, limb.joints[i], i == 0 ? limb.fk[0] : make_place(b, limb, i));
   }
 }
 
