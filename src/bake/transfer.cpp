@@ -24,14 +24,6 @@ using scene::Plug;
 constexpr double kCubicRate = 60;
 constexpr double kMostSamples = 1'000'000;
 
-constexpr anim::Path kPaths[] = {anim::Path::translation, anim::Path::rotation, anim::Path::scale};
-
-bool wants(const Unknown& u, anim::Path path) {
-  return path == anim::Path::translation ? u.moves
-         : path == anim::Path::rotation  ? u.turns
-                                         : u.scales;
-}
-
 const anim::Curve* curve_on(const Aim& aim, anim::Path path) {
   return path == anim::Path::translation ? aim.translation
          : path == anim::Path::rotation  ? aim.rotation
@@ -84,15 +76,24 @@ anim::Clip timing(const std::vector<const anim::Curve*>& curves, bool steps) {
   return clip;
 }
 
+/// Whether the rig or the transfer says where a joint is: then its channels go, or come again.
+bool is_solved(const scene::Scene& scene, const Aim& aim) {
+  return is_driven(scene, aim.id) || (aim.animated() && !aim.direct);
+}
+
 /// What the clip moves besides what is solved or switched.
-std::vector<eval::ClipInput> other_inputs(const std::vector<eval::ClipInput>& all,
+std::vector<eval::ClipInput> other_inputs(const scene::Scene& scene, const std::vector<Aim>& aims,
+                                          const std::vector<eval::ClipInput>& all,
                                           const TransferPlan& plan,
                                           const std::vector<SwitchValue>& switches) {
   std::set<Plug> taken;
   for (const SwitchValue& value : switches) taken.insert(value.attribute);
   for (const Unknown& u : plan.unknowns)
     for (const anim::Path path : kPaths)
-      if (wants(u, path)) taken.insert(plug_of(u.node, path));
+      if (solves(u, path)) taken.insert(plug_of(u.node, path));
+  for (const Aim& aim : aims)
+    for (const anim::Path path : kPaths)
+      if (is_solved(scene, aim)) taken.insert(plug_of(aim.id, path));
   std::vector<eval::ClipInput> others;
   for (const eval::ClipInput& input : all)
     if (!taken.contains(input.plug)) others.push_back(input);
@@ -112,7 +113,7 @@ class Writer {
  public:
   Writer(const scene::Scene& scene, const std::vector<int>& nodes, const std::vector<Aim>& aims,
          const anim::Clip& clip, const std::vector<double>& times, bool steps)
-      : scene_(scene), nodes_(nodes), aims_(aims), clip_(clip), noise_(scene, aims) {
+      : scene_(scene), nodes_(nodes), aims_(aims), clip_(clip) {
     steps_ = steps;
     std::vector<float> keys;
     for (const double time : times) keys.push_back(static_cast<float>(time));
@@ -124,7 +125,7 @@ class Writer {
 
   void add(const Unknown& u, const std::vector<math::Trs>& locals) {
     for (const anim::Path path : kPaths)
-      if (wants(u, path)) add_path(u, path, locals);
+      if (solves(u, path)) add_path(u, path, locals);
   }
 
   void add(const SwitchValue& value) {
@@ -141,7 +142,7 @@ class Writer {
   /// What the rig drives of joints, and what it has at rest anyway, needs no channel.
   Transferred finish(TransferReport& report) {
     for (const Aim& aim : aims_)
-      if (is_solved(aim)) drop(nodes_[aim.id.index], aim.id);
+      if (is_solved(scene_, aim)) drop(nodes_[aim.id.index], aim.id);
     for (const NodeId id : keyed_)
       if (scene_[id].kind != scene::Kind::joint) ++report.controls;
     report.kept.assign(kept_.begin(), kept_.end());
@@ -152,12 +153,6 @@ class Writer {
   }
 
  private:
-  /// Whether the rig or the transfer says where a joint is.
-  bool is_solved(const Aim& aim) const {
-    if (aim.animated() && !aim.direct) return true;
-    return is_driven(scene_, aim.id);
-  }
-
   void drop(int node, NodeId id) {
     for (const anim::Channel& channel : clip_.channels) {
       const bool stays = passed_.contains({id, channel.path});
@@ -175,11 +170,9 @@ class Writer {
 
   void add_path(const Unknown& u, anim::Path path, const std::vector<math::Trs>& locals) {
     const math::Trs rest = scene_.local(u.node);
-    const double noise = noise_.of(u.node, path);
     const auto is_at = [&](const math::Trs& value) {
-      return std::all_of(locals.begin(), locals.end(), [&](const math::Trs& local) {
-        return differ(local, value, path) <= noise;
-      });
+      return std::all_of(locals.begin(), locals.end(),
+                         [&](const math::Trs& local) { return differ(local, value, path) == 0; });
     };
     const bool joint = u.rule == Unknown::Rule::own;
     if (is_at(rest)) {
@@ -214,7 +207,6 @@ class Writer {
   const std::vector<int>& nodes_;
   const std::vector<Aim>& aims_;
   const anim::Clip& clip_;
-  Noise noise_;
   bool steps_ = false;
   std::shared_ptr<const std::vector<float>> times_, first_;
   std::set<NodeId> keyed_, kept_;
@@ -268,7 +260,7 @@ std::optional<Transferred> transfer(const scene::Scene& scene, const std::vector
   if (!times) return std::nullopt;
 
   const auto all = eval::clip_inputs(scene, nodes, clip);
-  const auto others = other_inputs(all, *plan, options.switches);
+  const auto others = other_inputs(scene, aims, all, *plan, options.switches);
   const auto worlds = play(aims, *times);
   const auto locals =
       solve(scene, {*plan, aims, worlds, others, options.switches, *times}, diagnostics);

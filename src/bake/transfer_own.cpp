@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/transfer_plan.h"
 #include "bake/transfer_plugs.h"
 
 namespace rigc::bake {
 namespace {
-
-constexpr anim::Path kPaths[] = {anim::Path::translation, anim::Path::rotation, anim::Path::scale};
 
 struct Candidate {
   int aim;

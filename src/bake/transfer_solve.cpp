@@ -7,6 +7,7 @@
 
 #include "bake/transfer_limb.h"
 #include "bake/transfer_order.h"
+#include "bake/transfer_plugs.h"
 #include "eval/evaluate.h"
 
 namespace rigc::bake {
@@ -14,7 +15,7 @@ namespace {
 
 using math::Affine;
 using math::Vec3;
-using scene::Plug;
+using scene::NodeId;
 namespace transform = scene::transform;
 
 /// Worlds of all aims in one frame.
@@ -131,10 +132,16 @@ Known read_known(const eval::Instance& instance, const Unknown& u, std::size_t& 
   return known;
 }
 
+void copy(const math::Trs& from, anim::Path path, math::Trs& to) {
+  if (path == anim::Path::translation) to.translation = from.translation;
+  if (path == anim::Path::rotation) to.rotation = from.rotation;
+  if (path == anim::Path::scale) to.scale = from.scale;
+}
+
 class Solver {
  public:
   Solver(const scene::Scene& scene, const SolveInput& input)
-      : scene_(scene), input_(input), unknowns_(input.plan.unknowns) {
+      : scene_(scene), input_(input), unknowns_(input.plan.unknowns), noise_(scene, input.aims) {
     locals_.assign(unknowns_.size(), std::vector<math::Trs>(input.times.size()));
   }
 
@@ -161,6 +168,9 @@ class Solver {
       }
     };
     eval::for_frames(*program, input_.times.size(), set, take);
+    for (std::size_t i = first; i < last; ++i)
+      for (const anim::Path path : kPaths)
+        if (solves(unknowns_[i], path)) settle(i, path);
     return true;
   }
 
@@ -178,9 +188,8 @@ class Solver {
     for (const SwitchValue& value : input_.switches) request.inputs.push_back(value.attribute);
     for (std::size_t i = 0; i < first; ++i) {
       const Unknown& u = unknowns_[i];
-      if (u.moves) request.inputs.push_back({u.node, transform::kTranslate});
-      if (u.turns) request.inputs.push_back({u.node, transform::kRotation});
-      if (u.scales) request.inputs.push_back({u.node, transform::kScale});
+      for (const anim::Path path : kPaths)
+        if (solves(u, path)) request.inputs.push_back(plug_of(u.node, path));
     }
     for (std::size_t i = first; i < last; ++i) {
       request.outputs.push_back({unknowns_[i].node, transform::kParent});
@@ -214,6 +223,21 @@ class Solver {
     }
   }
 
+  /// What only rounding moves stays, where the scene has it or where it begins: it gets no keys.
+  void settle(std::size_t unknown, anim::Path path) {
+    std::vector<math::Trs>& locals = locals_[unknown];
+    const NodeId node = unknowns_[unknown].node;
+    const double noise = noise_.of(node, path);
+    for (const math::Trs& still : {scene_.local(node), locals.front()}) {
+      const bool stays = std::all_of(locals.begin(), locals.end(), [&](const math::Trs& local) {
+        return differ(local, still, path) <= noise;
+      });
+      if (!stays) continue;
+      for (math::Trs& local : locals) copy(still, path, local);
+      return;
+    }
+  }
+
   /// What players read of it: so that the levels above make good what rounding does below.
   static math::Trs as_written(const math::Trs& local) {
     const auto number = [](double x) { return static_cast<double>(static_cast<float>(x)); };
@@ -235,6 +259,7 @@ class Solver {
   const scene::Scene& scene_;
   const SolveInput& input_;
   const std::vector<Unknown>& unknowns_;
+  Noise noise_;
   std::vector<std::vector<math::Trs>> locals_;
 };
 
