@@ -32,6 +32,8 @@ enum Argument : std::size_t {
   kStartScale,
   kMiddleScale
 };
+// Rows of the twist, which has one or, where joints may be turned about their bones, three.
+enum Twist : std::uint32_t { kOfPlane, kOfStart, kOfMiddle };
 
 struct Data {
   Vec3 goal_offset;
@@ -100,6 +102,13 @@ math::Mat3 joint_axes(Vec3 bone, Vec3 normal, Quat offset, Vec3 child) {
   return axes * math::matrix(correction * offset);
 }
 
+// The bend normal as a joint that is turned about its bone takes it.
+Vec3 turned(const Call& call, Twist twist, int lane, Vec3 bone, Vec3 normal) {
+  if (call.arguments[kTwist].width <= twist) return normal;
+  const double degrees = call.in(kTwist)[twist * kLanes + static_cast<std::uint32_t>(lane)];
+  return math::rotate(math::axis_angle(bone, math::radians(degrees)), normal);
+}
+
 math::Affine world(const math::Mat3& r, Vec3 scale, Vec3 origin) {
   return {{r.x * scale.x, r.y * scale.y, r.z * scale.z}, origin};
 }
@@ -127,10 +136,12 @@ void solve(const Call& call, const Data& data, int lane) {
 
   // A mirrored base is one whose z is turned over.
   const Vec3 mirror{1, 1, of_base.scale.z < 0 ? -1.0 : 1.0};
+  const Vec3 first_normal = turned(call, kOfStart, lane, bones.first, plane.normal);
+  const Vec3 second_normal = turned(call, kOfMiddle, lane, bones.second, plane.normal);
   const math::Mat3 first =
-      joint_axes(bones.first, plane.normal, data.start_offset, math::scaled(upper, mirror));
+      joint_axes(bones.first, first_normal, data.start_offset, math::scaled(upper, mirror));
   const math::Mat3 second =
-      joint_axes(bones.second, plane.normal, data.middle_offset, math::scaled(lower, mirror));
+      joint_axes(bones.second, second_normal, data.middle_offset, math::scaled(lower, mirror));
   const Vec3 start_total = math::scaled(of_base.scale, start_scale);
   const Vec3 middle_total = math::scaled(start_total, middle_scale);
   const Vec3 middle = start + bones.first * a;
