@@ -100,6 +100,28 @@ void make_settings(Builder& b, Limb& limb) {
   limb.fk_weight = {rest_of, expression::kOutput};
 }
 
+/// Turns of the upper and the lower bone about themselves, which goal and pole cannot say. Equal
+/// values on both sides of a character mirror each other.
+void add_twist(Builder& b, const Limb& limb, std::size_t i) {
+  scene::UserAttribute twist;
+  twist.name = i == 0 ? "upper_twist" : "lower_twist";
+  twist.flavour = scene::UserAttribute::Flavour::angle;
+  Plug plug = b.add_attribute(limb.ik, std::move(twist));
+  if (is_mirrored(b, limb.joints[i])) {
+    namespace expression = scene::expression;
+    const NodeId negative = b.make({.kind = scene::Kind::expression,
+                                    .role = "driver",
+                                    .joint = limb.joints[i],
+                                    .parent = {},
+                                    .suffix = "twist"});
+    b.set({negative, expression::kCode}, std::string("-$0"));
+    b.set({negative, expression::kInputs, 0}, 0.0);
+    b.connect(plug, {negative, expression::kInputs, 0});
+    plug = {negative, expression::kOutput};
+  }
+  b.connect(plug, {limb.solver, i == 0 ? scene::ik2::kStartTwist : scene::ik2::kMiddleTwist});
+}
+
 /// Each joint turns with its FK control and with what IK says, by weight.
 void blend(Builder& b, const Limb& limb) {
   namespace constraint = scene::constraint;
@@ -164,6 +186,7 @@ void ik_fk_limb(Builder& b) {
   if (!b.failed()) make_settings(b, limb);
   if (b.failed()) return;
   limb.solver = make_two_bone(b, limb.bones, limb.ik, limb.pole, 0);
+  for (const std::size_t i : {0u, 1u}) add_twist(b, limb, i);
   blend(b, limb);
   carry_joints(b, limb);
 }
