@@ -88,9 +88,11 @@ std::vector<eval::ClipInput> other_inputs(const scene::Scene& scene, const std::
                                           const std::vector<SwitchValue>& switches) {
   std::set<Plug> taken;
   for (const SwitchValue& value : switches) taken.insert(value.attribute);
-  for (const Unknown& u : plan.unknowns)
+  for (const Unknown& u : plan.unknowns) {
+    if (u.rule == Unknown::Rule::twist) taken.insert(u.attribute);
     for (const anim::Path path : kPaths)
       if (solves(u, path)) taken.insert(plug_of(u.node, path));
+  }
   for (const Aim& aim : aims)
     for (const anim::Path path : kPaths)
       if (is_solved(scene, aim)) taken.insert(plug_of(aim.id, path));
@@ -128,15 +130,15 @@ class Writer {
       if (solves(u, path)) add_path(u, path, locals);
   }
 
-  void add(const SwitchValue& value) {
-    const scene::Node& node = scene_[value.attribute.node];
-    anim::Channel& channel = out_.clip.channels.emplace_back();
-    channel.node = nodes_[value.attribute.node.index];
-    channel.path = anim::Path::attribute;
-    channel.attribute = node.user[value.attribute.attribute - scene::kUserAttributes].name;
-    channel.curve.times = first_;
-    channel.curve.values = {static_cast<float>(value.value)};
-    keyed_.insert(value.attribute.node);
+  void add(const SwitchValue& value) { write_numbers(value.attribute, {value.value}); }
+
+  void add_twist(const Unknown& u, const std::vector<double>& numbers) {
+    const auto is_at = [&](double value) {
+      return std::all_of(numbers.begin(), numbers.end(), [&](double n) { return n == value; });
+    };
+    if (is_at(scene_.number(u.attribute))) return drop_key(u.attribute);
+    write_numbers(u.attribute,
+                  is_at(numbers.front()) ? std::vector<double>{numbers.front()} : numbers);
   }
 
   /// What the rig drives of joints, and what it has at rest anyway, needs no channel.
@@ -166,6 +168,29 @@ class Writer {
     for (const anim::Channel& channel : clip_.channels)
       if (channel.node == nodes_[id.index] && channel.path == path)
         out_.dropped.push_back(channel.source_channel);
+  }
+
+  void drop_key(const Plug& attribute) {
+    for (const anim::Channel& channel : clip_.channels)
+      if (channel.node == nodes_[attribute.node.index] && channel.attribute == name_of(attribute))
+        out_.dropped.push_back(channel.source_channel);
+  }
+
+  const std::string& name_of(const Plug& attribute) const {
+    return scene_[attribute.node].user[attribute.attribute - scene::kUserAttributes].name;
+  }
+
+  /// One for each key, or one.
+  void write_numbers(const Plug& attribute, const std::vector<double>& numbers) {
+    anim::Channel& channel = out_.clip.channels.emplace_back();
+    channel.node = nodes_[attribute.node.index];
+    channel.path = anim::Path::attribute;
+    channel.attribute = name_of(attribute);
+    channel.curve.times = numbers.size() == times_->size() ? times_ : first_;
+    for (const double number : numbers)
+      channel.curve.values.push_back(static_cast<float>(number) + 0.0f);
+    if (steps_) channel.curve.interpolation = anim::Interpolation::step;
+    keyed_.insert(attribute.node);
   }
 
   void add_path(const Unknown& u, anim::Path path, const std::vector<math::Trs>& locals) {
@@ -262,14 +287,19 @@ std::optional<Transferred> transfer(const scene::Scene& scene, const std::vector
   const auto all = eval::clip_inputs(scene, nodes, clip);
   const auto others = other_inputs(scene, aims, all, *plan, options.switches);
   const auto worlds = play(aims, *times);
-  const auto locals =
+  const auto solution =
       solve(scene, {*plan, aims, worlds, others, options.switches, *times}, diagnostics);
-  if (!locals) return std::nullopt;
+  if (!solution) return std::nullopt;
 
   Writer writer(scene, nodes, aims, clip, *times, steps);
   for (const SwitchValue& value : options.switches) writer.add(value);
-  for (std::size_t i = 0; i < plan->unknowns.size(); ++i)
-    writer.add(plan->unknowns[i], (*locals)[i]);
+  for (std::size_t i = 0; i < plan->unknowns.size(); ++i) {
+    const Unknown& u = plan->unknowns[i];
+    if (u.rule == Unknown::Rule::twist)
+      writer.add_twist(u, solution->numbers[i]);
+    else
+      writer.add(u, solution->locals[i]);
+  }
   Transferred out = writer.finish(report);
   report.frames = times->size();
   const Measure measure{scene, nodes, aims, options.standings, changed(clip, out)};

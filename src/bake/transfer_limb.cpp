@@ -26,8 +26,10 @@ Bones bones_of(const Limb& limb, const math::Affine& start, const math::Affine& 
   const double size = math::cbrt(std::fabs(determinant));
   const Vec3 mirror{1, 1, determinant < 0 ? -1.0 : 1.0};
   Bones bones;
-  bones.first = math::orthonormal(start.linear) * math::normalised(math::scaled(upper, mirror));
-  bones.second = math::orthonormal(middle.linear) * math::normalised(math::scaled(lower, mirror));
+  bones.first_child = math::normalised(math::scaled(upper, mirror));
+  bones.second_child = math::normalised(math::scaled(lower, mirror));
+  bones.first = math::orthonormal(start.linear) * bones.first_child;
+  bones.second = math::orthonormal(middle.linear) * bones.second_child;
   bones.start = limb.base * limb.start;
   bones.middle = bones.start + bones.first * (math::length(upper) * size);
   bones.end = bones.middle + bones.second * (math::length(lower) * size);
@@ -67,6 +69,20 @@ Vec3 bent_side(const Bones& bones, const math::Affine& start, math::Quat bone_of
   const Vec3 out = perpendicular_part(bones.middle - bones.start, direction);
   const Vec3 mixed = math::normalised(out, turned) * weight + turned * (1 - weight);
   return math::normalised(perpendicular_part(mixed, direction), turned);
+}
+
+double twist_of(const Bones& bones, Vec3 side, Vec3 bone, Vec3 child, math::Quat joint_offset,
+                const math::Affine& joint) {
+  const Vec3 direction = math::normalised(bones.end - bones.start, bones.first);
+  const Vec3 normal = math::cross(direction, side);
+  const math::Mat3 frame = math::frame(bone, math::cross(normal, bone));
+  const math::Quat offset = math::normalised(joint_offset);
+  const math::Quat correction =
+      math::between(math::normalised(math::rotate(offset, child)), {1, 0, 0});
+  const math::Mat3 untwisted = frame * math::matrix(correction * offset);
+  const math::Quat turn =
+      math::quaternion(math::orthonormal(joint.linear) * math::transposed(untwisted));
+  return math::degrees(2 * math::atan2(math::dot(Vec3{turn.x, turn.y, turn.z}, bone), turn.w));
 }
 
 }  // namespace rigc::bake

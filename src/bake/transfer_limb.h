@@ -16,8 +16,9 @@ struct Limb {
 
 /// Where a solved limb lies, rig space.
 struct Bones {
-  math::Vec3 start, middle, end;  ///< as the solver counts them
-  math::Vec3 first, second;       ///< directions of the bones, unit vectors
+  math::Vec3 start, middle, end;         ///< as the solver counts them
+  math::Vec3 first, second;              ///< directions of the bones, unit vectors
+  math::Vec3 first_child, second_child;  ///< the same in the joints' own axes
 };
 
 /// The bones that turn start and middle joint as their worlds are turned. The solver gives these
@@ -34,5 +35,11 @@ math::Vec3 rounded_goal(const Bones& bones, const math::Affine& to_point);
 /// angles to it. A limb that is straight within rounding bends to where the start's joint says;
 /// `bone_offset`: its rest rotation seen from the bone's frame, whose z is normal to the plane.
 math::Vec3 bent_side(const Bones& bones, const math::Affine& start, math::Quat bone_offset);
+
+/// Degrees, above -180 up to 180, by which a joint of the limb is turned about its bone against the
+/// solver's own frame there. `bone`, `child`: of Bones; `side`: bent_side(); `joint_offset`: the
+/// joint's rest rotation seen from its bone's frame.
+double twist_of(const Bones& bones, math::Vec3 side, math::Vec3 bone, math::Vec3 child,
+                math::Quat joint_offset, const math::Affine& joint);
 
 }  // namespace rigc::bake

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "bake/transfer_plugs.h"
 
@@ -21,7 +22,10 @@ class Levels {
     solved_.assign(scene.size(), false);
     for (const Unknown& unknown : unknowns) {
       solved_[unknown.node.index] = true;
-      needs_.emplace(unknown.node, needs_of_unknown(unknown));
+      if (unknown.rule == Unknown::Rule::twist) attributes_.insert(unknown.attribute);
+      std::vector<Plug>& needs = needs_[unknown.node];  // several unknowns may be on one
+      const std::vector<Plug> own = needs_of_unknown(unknown);
+      needs.insert(needs.end(), own.begin(), own.end());
     }
   }
 
@@ -64,7 +68,8 @@ class Levels {
 
   /// The transform of an unknown counts one more than what it comes from.
   bool is_solved(const Plug& plug) const {
-    return solved_[plug.node.index] && plug.attribute <= transform::kScale;
+    const bool local = solved_[plug.node.index] && plug.attribute <= transform::kScale;
+    return local || attributes_.contains(plug);
   }
 
   void open(const Plug& plug) {
@@ -88,6 +93,7 @@ class Levels {
   const scene::Scene& scene_;
   std::vector<bool> solved_;                   // by scene node
   std::map<NodeId, std::vector<Plug>> needs_;  // of unknowns
+  std::set<Plug> attributes_;                  // that are
   std::map<Plug, int> levels_;
   std::vector<Frame> stack_;
 };

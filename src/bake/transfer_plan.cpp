@@ -222,16 +222,48 @@ class Planner {
           by->offset * std::get<math::Vec3>(scene_.value({solved.solver, ik2::kGoalOffset}));
       set_limb(u, solved);
     }
+    bind_twist(solved, ik2::kStartTwist);
+    bind_twist(solved, ik2::kMiddleTwist);
     const bool keyed =
         pole && scene_[pole->node].kind == Kind::control && nodes_[pole->node.index] >= 0;
     if (!keyed) return;
     Unknown& u = unknown(pole->node, Unknown::Rule::pole);
     u.moves = true;
-    u.bone_offset = std::get<math::Quat>(scene_.value({solved.solver, ik2::kOffsets, 0}));
+    u.bone_offset = bone_offset(solved, 0);
     u.distance =
         math::length(scene_.rest_world(pole->node).origin -
                      scene_.rest_world(aims_[static_cast<std::size_t>(solved.middle)].id).origin);
     set_limb(u, solved);
+  }
+
+  /// The one attribute that turns a bone about itself; what lies between must be linear.
+  void bind_twist(const Solved& solved, std::uint16_t twist) {
+    const Plug plug{solved.solver, twist};
+    const auto found = attributes_behind(scene_, {plug});
+    if (found.size() != 1 || nodes_[found.begin()->node.index] < 0) return;
+    double turns[2];
+    for (const int value : {0, 1}) {
+      const auto turn = eval::evaluate(
+          scene_, {plug}, {{*found.begin(), static_cast<double>(value)}}, diagnostics_);
+      if (!turn) return;
+      turns[value] = std::get<double>(turn->front());
+    }
+    if (turns[0] == turns[1]) return;
+    Unknown& u = unknowns_.emplace_back();
+    u.node = found.begin()->node;
+    u.rule = Unknown::Rule::twist;
+    u.attribute = *found.begin();
+    u.of_middle = twist == ik2::kMiddleTwist;
+    u.per_degree = 1 / (turns[1] - turns[0]);
+    u.at = -turns[0] * u.per_degree;
+    u.bone_offset = bone_offset(solved, 0);
+    u.joint_offset = bone_offset(solved, u.of_middle ? 1 : 0);
+    set_limb(u, solved);
+  }
+
+  /// Rest rotation of a limb's joint seen from its bone's frame.
+  math::Quat bone_offset(const Solved& solved, std::int32_t joint) const {
+    return std::get<math::Quat>(scene_.value({solved.solver, ik2::kOffsets, joint}));
   }
 
   static void set_limb(Unknown& u, const Solved& solved) {

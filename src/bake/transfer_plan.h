@@ -18,6 +18,7 @@ struct Unknown {
     own,     ///< a joint: what the rig does not drive of it
     follow,  ///< a control that joints follow at a fixed offset, or that a limb reaches for
     pole,    ///< a control that says the plane of a two-bone limb
+    twist,   ///< an attribute of a control that turns a bone of such a limb about itself
     look     ///< a control that a joint looks at
   };
   scene::NodeId node;
@@ -35,8 +36,13 @@ struct Unknown {
   scene::NodeId solver;
   int start = -1, middle = -1;  ///< joints of that limb
   math::Quat
-      bone_offset;      ///< the joint's rest rotation seen from its bone's (look: the eye's) frame
-  double distance = 0;  ///< of the pole from the middle joint, of the target from the eye
+      bone_offset;  ///< the joint's rest rotation seen from its bone's (look: the eye's) frame
+  /// Of a twist.
+  scene::Plug attribute;
+  bool of_middle = false;         ///< of the lower bone
+  math::Quat joint_offset;        ///< as bone_offset, of the bone that it turns
+  double per_degree = 1, at = 0;  ///< value that gives a turn: `at` + degrees * `per_degree`
+  double distance = 0;            ///< of the pole from the middle joint, of the target from the eye
 };
 
 inline constexpr anim::Path kPaths[] = {anim::Path::translation, anim::Path::rotation,

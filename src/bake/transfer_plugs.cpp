@@ -34,6 +34,13 @@ void add_sources(const scene::Scene& scene, const Plug& plug, std::vector<Plug>&
   }
 }
 
+bool is_keyable(const scene::Scene& scene, const Plug& plug) {
+  if (plug.attribute < scene::kUserAttributes || scene[plug.node].kind != scene::Kind::control)
+    return false;
+  return scene[plug.node].user[plug.attribute - scene::kUserAttributes].keyable &&
+         !scene.source(plug);
+}
+
 }  // namespace
 
 std::vector<Plug> needs_of(const scene::Scene& scene, const Plug& plug) {
@@ -55,6 +62,19 @@ std::vector<Plug> needs_of(const scene::Scene& scene, const Plug& plug) {
   const NodeId above = transform_above(scene, plug.node);
   if (above.valid()) out.push_back({above, transform::kWorld});
   return out;
+}
+
+std::set<Plug> attributes_behind(const scene::Scene& scene, const std::vector<Plug>& plugs) {
+  std::set<Plug> found, seen;
+  std::vector<Plug> open = plugs;
+  while (!open.empty()) {
+    const Plug plug = open.back();
+    open.pop_back();
+    if (!seen.insert(plug).second) continue;
+    if (is_keyable(scene, plug)) found.insert(plug);
+    for (const Plug& need : needs_of(scene, plug)) open.push_back(need);
+  }
+  return found;
 }
 
 bool is_driven(const scene::Scene& scene, const Plug& plug) {

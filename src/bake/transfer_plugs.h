@@ -3,6 +3,7 @@
 // Test: tests/bake/transfer_test.cpp
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "anim/clip.h"
@@ -12,6 +13,10 @@ namespace rigc::bake {
 
 /// Plugs that a plug is computed from; none where it holds a value of its own.
 std::vector<scene::Plug> needs_of(const scene::Scene& scene, const scene::Plug& plug);
+
+/// Keyable attributes of controls that plugs come from.
+std::set<scene::Plug> attributes_behind(const scene::Scene& scene,
+                                        const std::vector<scene::Plug>& plugs);
 
 /// Whether something is connected into a plug of a transform, whole or in parts; a rotation's Euler
 /// view counts.

@@ -4,6 +4,7 @@
 #include "bake/transfer_solve.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "bake/transfer_limb.h"
 #include "bake/transfer_order.h"
@@ -12,6 +13,9 @@
 
 namespace rigc::bake {
 namespace {
+
+/// What counts as rounding in an angle.
+constexpr double kDegreeNoise = 2e-5;
 
 using math::Affine;
 using math::Vec3;
@@ -77,6 +81,18 @@ math::Trs pole(const Unknown& u, const Pose& pose, const Known& known, math::Trs
   return local;
 }
 
+/// Value of the attribute, of those a turn apart the one nearest to the value before.
+double twist(const Unknown& u, const Pose& pose, const Known& known, double before) {
+  const Bones bones = bones_of(known.limb, pose[u.start], pose[u.middle]);
+  const Vec3 side = bent_side(bones, pose[u.start], u.bone_offset);
+  const Vec3 bone = u.of_middle ? bones.second : bones.first;
+  const Vec3 child = u.of_middle ? bones.second_child : bones.first_child;
+  const Affine& joint = pose[u.of_middle ? u.middle : u.start];
+  const double degrees = twist_of(bones, side, bone, child, u.joint_offset, joint);
+  const double value = u.at + degrees * u.per_degree, turn = 360 * u.per_degree;
+  return value + std::nearbyint((before - value) / turn) * turn;
+}
+
 math::Trs look(const Unknown& u, const Pose& pose, const Known& known, math::Trs local) {
   const math::Mat3 axes = math::orthonormal(pose[u.turn_aim].linear) *
                           math::transposed(math::matrix(math::normalised(u.bone_offset)));
@@ -99,6 +115,8 @@ math::Trs solve_one(const Unknown& u, const Pose& pose, const Known& known, cons
       return own(u, math::decompose(math::inverse(known.parent) * pose[u.turn_aim]), rest);
     case Unknown::Rule::pole:
       return pole(u, pose, known, rest);
+    case Unknown::Rule::twist:
+      return rest;
     case Unknown::Rule::look:
       return look(u, pose, known, rest);
     case Unknown::Rule::follow:
@@ -138,11 +156,20 @@ void copy(const math::Trs& from, anim::Path path, math::Trs& to) {
   if (path == anim::Path::scale) to.scale = from.scale;
 }
 
+bool is_twist(const Unknown& u) { return u.rule == Unknown::Rule::twist; }
+
 class Solver {
  public:
   Solver(const scene::Scene& scene, const SolveInput& input)
       : scene_(scene), input_(input), unknowns_(input.plan.unknowns), noise_(scene, input.aims) {
-    locals_.assign(unknowns_.size(), std::vector<math::Trs>(input.times.size()));
+    solution_.locals.resize(unknowns_.size());
+    solution_.numbers.resize(unknowns_.size());
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+      if (is_twist(unknowns_[i]))
+        solution_.numbers[i].resize(input.times.size());
+      else
+        solution_.locals[i].resize(input.times.size());
+    }
   }
 
   bool solve_level(int level, Diagnostics& diagnostics) {
@@ -163,18 +190,24 @@ class Solver {
       for (std::size_t i = first; i < last; ++i) {
         const Unknown& u = unknowns_[i];
         const Known known = read_known(instance, u, output, lane);
+        if (is_twist(u)) {
+          keep_number(i, frame, twist(u, pose, known, number_before(i, frame)));
+          continue;
+        }
         const math::Trs rest = scene_.local(u.node);
         keep(i, frame, u.plays ? own(u, played(u, frame), rest) : solve_one(u, pose, known, rest));
       }
     };
     eval::for_frames(*program, input_.times.size(), set, take);
-    for (std::size_t i = first; i < last; ++i)
+    for (std::size_t i = first; i < last; ++i) {
+      if (is_twist(unknowns_[i])) settle_number(i);
       for (const anim::Path path : kPaths)
         if (solves(unknowns_[i], path)) settle(i, path);
+    }
     return true;
   }
 
-  std::vector<std::vector<math::Trs>> take_locals() { return std::move(locals_); }
+  Solution take_solution() { return std::move(solution_); }
 
  private:
   math::Trs played(const Unknown& u, std::size_t frame) const {
@@ -188,6 +221,7 @@ class Solver {
     for (const SwitchValue& value : input_.switches) request.inputs.push_back(value.attribute);
     for (std::size_t i = 0; i < first; ++i) {
       const Unknown& u = unknowns_[i];
+      if (is_twist(u)) request.inputs.push_back(u.attribute);
       for (const anim::Path path : kPaths)
         if (solves(u, path)) request.inputs.push_back(plug_of(u.node, path));
     }
@@ -213,7 +247,11 @@ class Solver {
     for (const SwitchValue& value : input_.switches)
       eval::set_lane(instance.input(at++), lane, &value.value, 1);
     for (std::size_t i = 0; i < count; ++i) {
-      const math::Trs& local = locals_[i][frame];
+      if (is_twist(unknowns_[i])) {
+        eval::set_lane(instance.input(at++), lane, &solution_.numbers[i][frame], 1);
+        continue;
+      }
+      const math::Trs& local = solution_.locals[i][frame];
       const double t[3] = {local.translation.x, local.translation.y, local.translation.z};
       const double r[4] = {local.rotation.x, local.rotation.y, local.rotation.z, local.rotation.w};
       const double s[3] = {local.scale.x, local.scale.y, local.scale.z};
@@ -225,7 +263,7 @@ class Solver {
 
   /// What only rounding moves stays, where the scene has it or where it begins: it gets no keys.
   void settle(std::size_t unknown, anim::Path path) {
-    std::vector<math::Trs>& locals = locals_[unknown];
+    std::vector<math::Trs>& locals = solution_.locals[unknown];
     const NodeId node = unknowns_[unknown].node;
     const double noise = noise_.of(node, path);
     for (const math::Trs& still : {scene_.local(node), locals.front()}) {
@@ -238,40 +276,59 @@ class Solver {
     }
   }
 
+  void settle_number(std::size_t unknown) {
+    std::vector<double>& numbers = solution_.numbers[unknown];
+    for (const double still : {scene_.number(unknowns_[unknown].attribute), numbers.front()}) {
+      const bool stays = std::all_of(numbers.begin(), numbers.end(), [&](double number) {
+        return std::abs(number - still) <= kDegreeNoise;
+      });
+      if (!stays) continue;
+      std::fill(numbers.begin(), numbers.end(), still);
+      return;
+    }
+  }
+
+  double number_before(std::size_t unknown, std::size_t frame) const {
+    return frame == 0 ? scene_.number(unknowns_[unknown].attribute)
+                      : solution_.numbers[unknown][frame - 1];
+  }
+
+  void keep_number(std::size_t unknown, std::size_t frame, double number) {
+    solution_.numbers[unknown][frame] = static_cast<double>(static_cast<float>(number));
+  }
+
   /// What players read of it: so that the levels above make good what rounding does below.
   static math::Trs as_written(const math::Trs& local) {
     const auto number = [](double x) { return static_cast<double>(static_cast<float>(x)); };
     const auto vector = [&](Vec3 v) { return Vec3{number(v.x), number(v.y), number(v.z)}; };
     const math::Quat& q = local.rotation;
-    return {vector(local.translation),
-            {number(q.x), number(q.y), number(q.z), number(q.w)},
-            vector(local.scale)};
+    const math::Quat rounded{number(q.x), number(q.y), number(q.z), number(q.w)};
+    return {vector(local.translation), math::normalised(rounded), vector(local.scale)};
   }
 
   /// Of a rotation and its negative the one nearer to the frame before.
   void keep(std::size_t unknown, std::size_t frame, math::Trs local) {
     const math::Quat before = frame == 0 ? scene_.local(unknowns_[unknown].node).rotation
-                                         : locals_[unknown][frame - 1].rotation;
+                                         : solution_.locals[unknown][frame - 1].rotation;
     if (math::dot(before, local.rotation) < 0) local.rotation = -local.rotation;
-    locals_[unknown][frame] = as_written(local);
+    solution_.locals[unknown][frame] = as_written(local);
   }
 
   const scene::Scene& scene_;
   const SolveInput& input_;
   const std::vector<Unknown>& unknowns_;
   Noise noise_;
-  std::vector<std::vector<math::Trs>> locals_;
+  Solution solution_;
 };
 
 }  // namespace
 
-std::optional<std::vector<std::vector<math::Trs>>> solve(const scene::Scene& scene,
-                                                         const SolveInput& input,
-                                                         Diagnostics& diagnostics) {
+std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input,
+                              Diagnostics& diagnostics) {
   Solver solver(scene, input);
   for (int level = 0; level < input.plan.levels; ++level)
     if (!solver.solve_level(level, diagnostics)) return std::nullopt;
-  return solver.take_locals();
+  return solver.take_solution();
 }
 
 }  // namespace rigc::bake

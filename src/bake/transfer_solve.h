@@ -20,9 +20,13 @@ struct SolveInput {
   const std::vector<double>& times;  ///< seconds
 };
 
-/// Local transforms, [unknowns][frames]; rotations continuous.
-std::optional<std::vector<std::vector<math::Trs>>> solve(const scene::Scene& scene,
-                                                         const SolveInput& input,
-                                                         Diagnostics& diagnostics);
+/// [unknowns][frames], rotations continuous.
+struct Solution {
+  std::vector<std::vector<math::Trs>> locals;  ///< empty for twists
+  std::vector<std::vector<double>> numbers;    ///< of twists, empty for others
+};
+
+std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input,
+                              Diagnostics& diagnostics);
 
 }  // namespace rigc::bake

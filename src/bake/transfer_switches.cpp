@@ -41,27 +41,6 @@ Blend blend_of(const scene::Scene& scene, NodeId joint) {
   return blend;
 }
 
-bool is_switchable(const scene::Scene& scene, const Plug& plug) {
-  if (plug.attribute < scene::kUserAttributes || scene[plug.node].kind != Kind::control)
-    return false;
-  return scene[plug.node].user[plug.attribute - scene::kUserAttributes].keyable &&
-         !scene.source(plug);
-}
-
-/// Keyable attributes of controls that plugs come from.
-std::set<Plug> attributes_behind(const scene::Scene& scene, const std::vector<Plug>& plugs) {
-  std::set<Plug> found, seen;
-  std::vector<Plug> open = plugs;
-  while (!open.empty()) {
-    const Plug plug = open.back();
-    open.pop_back();
-    if (!seen.insert(plug).second) continue;
-    if (is_switchable(scene, plug)) found.insert(plug);
-    for (const Plug& need : needs_of(scene, plug)) open.push_back(need);
-  }
-  return found;
-}
-
 /// 1: the solver alone turns the joint; 0: it has no part in it; between: neither.
 std::optional<double> share_of_solver(const scene::Scene& scene, const Blend& blend,
                                       const Plug& attribute, double value,

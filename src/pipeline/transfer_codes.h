@@ -12,9 +12,10 @@ inline constexpr Code kNoSuchLimb{
     "arm_l=ik. `all` stands for every one."};
 inline constexpr Code kNotReached{
     796, Severity::warning, "controls do not reach the clip's pose",
-    "A joint's place or turn cannot be said by the controls that drive it. IK cannot twist bones, "
-    "nor follow limbs whose bones are longer or shorter than at rest: FK may. --strict makes an "
-    "error of it."};
+    "A joint's place or turn cannot be said by the controls that drive it: eyes that look at a "
+    "target do not roll, limits and locks hold, and rigs of earlier versions cannot twist the "
+    "bones "
+    "of a limb in IK, where FK can. --strict makes an error of it."};
 inline constexpr Code kNotReachedStrictly{797, Severity::error,
                                           "controls do not reach the clip's pose",
                                           "As the warning; --strict was given."};
