@@ -302,7 +302,10 @@ std::optional<Transferred> transfer(const scene::Scene& scene, const std::vector
   }
   Transferred out = writer.finish(report);
   report.frames = times->size();
-  const Measure measure{scene, nodes, aims, options.standings, changed(clip, out)};
+  Measure measure{scene, nodes, aims, options.standings, changed(clip, out), -1};
+  for (const anim::Channel& channel : out.clip.channels)
+    if (channel.curve.times->size() > 1 && channel.path <= anim::Path::scale)
+      measure.keyed_node = channel.node;
   if (!measure_deviation(measure, *times, report, diagnostics)) return std::nullopt;
   return out;
 }

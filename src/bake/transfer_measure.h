@@ -14,10 +14,12 @@ struct Measure {
   const std::vector<int>& nodes;
   const std::vector<Aim>& aims;  ///< with the curves of the joints' own clip
   const std::vector<Standing>& standings;
-  anim::Clip clip;  ///< on controls
+  anim::Clip clip;      ///< on controls
+  int keyed_node = -1;  ///< glTF node of a control that moves in it; -1: none does
 };
 
-/// Bakes at every key and in the middle between two, and fills the report's deviations.
+/// Bakes with a frame at every key and in the middle between two, plays that, and fills the
+/// report's deviations.
 bool measure_deviation(const Measure& measure, const std::vector<double>& times,
                        TransferReport& report, Diagnostics& diagnostics);
 
