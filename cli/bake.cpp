@@ -61,10 +61,13 @@ class Bake final : public Command {
     request_.threads = &threads;
     request_.tolerance_mm = tolerance_.value_or(0);
     const bool many = batch.inputs.size() > 1 || !batch.out_dir.empty();
-    if (many || !batch.report.empty() || !batch.resume.empty())
-      bake_many(threads, session);
-    else
-      bake_one(session);
+    const bool reports = !batch.report.empty() || !batch.resume.empty();
+    run_timed(batch_, session, [&] {
+      if (many || reports)
+        bake_many(threads, session);
+      else
+        bake_one(session);
+    });
   }
 
  private:

@@ -79,6 +79,7 @@ std::unique_ptr<Command> make_rename();
 std::unique_ptr<Command> make_schema();
 std::unique_ptr<Command> make_status();
 std::unique_ptr<Command> make_strip();
+std::unique_ptr<Command> make_transfer();
 std::unique_ptr<Command> make_unbuild();
 std::unique_ptr<Command> make_update();
 

@@ -19,6 +19,7 @@ std::vector<std::unique_ptr<Command>> commands() {
   table.push_back(make_inspect());
   table.push_back(make_query());
   table.push_back(make_bake());
+  table.push_back(make_transfer());
   table.push_back(make_merge());
   table.push_back(make_rename());
   table.push_back(make_extract());

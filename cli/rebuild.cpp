@@ -51,12 +51,11 @@ class Rebuild final : public Command {
     batch_.request.command = name();
     batch_.request.settings = settings_text();
     batch_.request.writes = !request_.plan;
-    run_batch(
-        batch_,
-        [&](const FileWork& work, Diagnostics& diagnostics) {
-          return one(catalogue, work, diagnostics);
-        },
-        request_.plan || verbose_, session);
+    const auto work = [&](const FileWork& file, Diagnostics& diagnostics) {
+      return one(catalogue, file, diagnostics);
+    };
+    run_timed(batch_, session,
+              [&] { run_batch(batch_, work, request_.plan || verbose_, session); });
   }
 
  private:
@@ -123,10 +122,10 @@ class Remove final : public Command {
     w.begin_object().key("rigs").begin_array();
     for (const std::string& rig : rigs_) w.value(rig);
     batch_.request.settings = w.end_array().end_object().take();
-    run_batch(
-        batch_,
-        [&](const FileWork& work, Diagnostics& diagnostics) { return one(work, diagnostics); },
-        false, session);
+    const auto work = [&](const FileWork& file, Diagnostics& diagnostics) {
+      return one(file, diagnostics);
+    };
+    run_timed(batch_, session, [&] { run_batch(batch_, work, false, session); });
   }
 
  private:

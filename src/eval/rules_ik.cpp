@@ -14,12 +14,19 @@ namespace ik_chain_at = scene::ik_chain;
 namespace {
 
 constexpr double kMostIterations = 1000;
+constexpr std::size_t kTwoBoneArguments = ik2::kMiddleScale + 1;
 
 }  // namespace
 
-Plugs two_bone_reads(const scene::Scene&, scene::NodeId node) {
+/// Turns about the bones are read only where there may be some.
+Plugs two_bone_reads(const scene::Scene& scene, scene::NodeId node) {
   Plugs plugs;
   for (std::uint16_t i = ik2::kBase; i <= ik2::kMiddleScale; ++i) plugs.push_back({node, i});
+  const scene::Plug twists[] = {{node, ik2::kStartTwist}, {node, ik2::kMiddleTwist}};
+  const bool twisted = std::any_of(
+      std::begin(twists), std::end(twists),
+      [&](const scene::Plug& plug) { return scene.source(plug) || scene.number(plug) != 0; });
+  if (twisted) plugs.insert(plugs.end(), std::begin(twists), std::end(twists));
   return plugs;
 }
 
@@ -34,7 +41,14 @@ std::optional<Operand> two_bone_emit(Emitter& emitter, const scene::Scene& scene
   append(data, scene, node, ik2::kGoalOffset);
   append(data, scene, node, ik2::kOffsets);
   append(data, scene, node, ik2::kNormal);
-  return emitter.emit(Op::ik_two_bone, arguments, data, 24, node.index);
+  std::vector<Operand> nine(arguments.begin(), arguments.begin() + kTwoBoneArguments);
+  if (arguments.size() > kTwoBoneArguments) {
+    Operand& twists = nine[ik2::kTwist];
+    twists = emitter.emit(Op::gather,
+                          {twists, arguments[kTwoBoneArguments], arguments[kTwoBoneArguments + 1]},
+                          {}, 3, node.index);
+  }
+  return emitter.emit(Op::ik_two_bone, nine, data, 24, node.index);
 }
 
 OutputPlace two_bone_place(const scene::Plug& output) {

@@ -102,9 +102,12 @@ void settle(Patch::State& state) {
   const auto settle_array = [&](std::string_view name, ArrayChanges& changes) {
     if (!changes.has_slots) return;
     changes.cut_tail();
-    for (const std::size_t index : changes.free)
-      if (!is_placeholder(name, changes.text(index)))
+    for (const std::size_t index : changes.free) {
+      // What a view remembered as free may be used by now, or cut off.
+      const bool stale = name == "bufferViews" && changes.text(index) != placeholder("bufferViews");
+      if (stale || !is_placeholder(name, changes.text(index)))
         changes.set(index, state.new_placeholder(name));
+    }
   };
   // Their placeholders need accessors.
   for (const char* name : {"meshes", "animations"})

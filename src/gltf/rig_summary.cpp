@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/trace.h"
 #include "gltf/container.h"
 #include "gltf/rig_codes.h"
 #include "gltf/rig_json.h"
@@ -90,6 +91,7 @@ std::optional<std::vector<RigSummary>> parse_rigs(const std::string& path, std::
 
 std::optional<std::vector<RigSummary>> read_rig_summaries(const std::string& path,
                                                           Diagnostics& diagnostics) {
+  const trace::Span span("read rig versions");
   auto text = read_text(path, diagnostics);
   if (!text) return std::nullopt;
   if (auto rest = without_details(text->json)) {

@@ -145,6 +145,7 @@ class ClipBaker {
       : request_(request), options_(options), rigs_(rigs) {}
 
   ClipResult bake(const anim::Clip& clip, Diagnostics& diagnostics) const {
+    const trace::Span span("bake clip", trace::kStage, "clip", clip.name);
     ClipResult result;
     result.baked.name = clip.name;
     anim::Clip& out = result.change.clip;

@@ -14,6 +14,7 @@
 #include "base/codes.h"
 #include "base/files.h"
 #include "base/text.h"
+#include "base/trace.h"
 #include "pipeline/batch_codes.h"
 #include "pipeline/batch_inputs.h"
 #include "pipeline/batch_report.h"
@@ -175,6 +176,7 @@ class Runner {
   }
 
   FileResult result_of(const FileWork& work, Diagnostics& diagnostics) {
+    const trace::Span span("file", trace::kFile, "file", work.input);
     const bool mirrors = request_.writes && !request_.out_dir.empty();
     if (mirrors && !make_folder_of(work.output, diagnostics)) return {};
     try {

@@ -134,6 +134,7 @@ void Carrier::find_places() {
 }
 
 void Carrier::run() {
+  const trace::Span span("carry keys");
   find_places();
   report_nodes();
   succeed();

@@ -66,6 +66,7 @@ std::vector<anim::Clip> Carrier::moved_clips(const std::vector<bool>& wanted) co
 }
 
 std::optional<std::vector<ClipComparison>> Carrier::compare(Diagnostics& diagnostics) const {
+  const trace::Span span("compare motion");
   // A rig that is taken apart plays nothing.
   if (old_.commands.empty() || fresh_.commands.empty()) return std::vector<ClipComparison>();
   const std::vector<bool> concerned = concerned_clips();

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/text.h"
+#include "base/trace.h"
 #include "gltf/skeletons.h"
 #include "pipeline/update_codes.h"
 #include "tags/settings.h"
@@ -180,6 +181,7 @@ std::optional<TaggedSkeleton> place_again(const std::vector<const templates::Exp
                                           const gltf::File& file, const gltf::Rig& old,
                                           const KnownMaps* maps, bool take_skeleton,
                                           Diagnostics& diagnostics) {
+  const trace::Span span("place");
   std::vector<std::size_t> begins = main_templates(old.skeleton.templates);
   begins.push_back(old.skeleton.templates.size());
   std::optional<TaggedSkeleton> out;

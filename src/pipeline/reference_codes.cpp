@@ -17,6 +17,7 @@
 #include "pipeline/codes.h"
 #include "pipeline/merge_codes.h"
 #include "pipeline/reference.h"
+#include "pipeline/transfer_codes.h"
 #include "pipeline/update_codes.h"
 #include "processor/codes.h"
 #include "scene/codes.h"
@@ -54,6 +55,7 @@ std::vector<const Code*> all_codes() {
   add(pipeline::codes::kPipelineCodes, codes);
   add(pipeline::codes::kUpdateCodes, codes);
   add(pipeline::codes::kBatchCodes, codes);
+  add(pipeline::codes::kTransferCodes, codes);
   add(pipeline::codes::kMergeFileCodes, codes);
   std::sort(codes.begin(), codes.end(),
             [](const Code* a, const Code* b) { return a->number < b->number; });

@@ -98,6 +98,10 @@ constexpr auto kIk2 = std::to_array<AttributeSpec>({
      "Bend normal in base space where the pole gives none."},
     {"start_world", Type::matrix, kOut, kSingle, kFixed, 0, "Solved world of the start joint."},
     {"middle_world", Type::matrix, kOut, kSingle, kFixed, 0, "Solved world of the middle joint."},
+    {"start_twist", Type::number, kIn, kSingle, kFixed, 0,
+     "Degrees that the start joint is turned about its bone."},
+    {"middle_twist", Type::number, kIn, kSingle, kFixed, 0,
+     "Degrees that the middle joint is turned about its bone."},
 });
 
 constexpr auto kIkChain = std::to_array<AttributeSpec>({
@@ -253,7 +257,9 @@ constexpr At kIk2At[] = {{ik2::kBase, "base"},
                          {ik2::kOffsets, "offsets"},
                          {ik2::kNormal, "normal"},
                          {ik2::kStartWorld, "start_world"},
-                         {ik2::kMiddleWorld, "middle_world"}};
+                         {ik2::kMiddleWorld, "middle_world"},
+                         {ik2::kStartTwist, "start_twist"},
+                         {ik2::kMiddleTwist, "middle_twist"}};
 static_assert(std::size(kIk2) == std::size(kIk2At) && matches(kIk2, kIk2At));
 
 constexpr At kIkChainAt[] = {{ik_chain::kBase, "base"},

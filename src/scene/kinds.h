@@ -153,6 +153,9 @@ inline constexpr std::uint16_t kStartWorld =
     12;  ///< matrix, output: solved world of the start joint
 inline constexpr std::uint16_t kMiddleWorld =
     13;  ///< matrix, output: solved world of the middle joint
+inline constexpr std::uint16_t kStartTwist =
+    14;  ///< number, input: degrees that the start joint is turned about its bone, right-handed
+inline constexpr std::uint16_t kMiddleTwist = 15;  ///< number, input: the same of the middle joint
 }  // namespace ik2
 
 /// Iterative IK for a chain of n joints (FABRIK, Aristidou 2011, fixed number of iterations),

@@ -320,6 +320,38 @@ TEST_CASE("gltf clips: a new clip is written and read") {
   CHECK(input["max"].text() == "[2]");
 }
 
+TEST_CASE("gltf clips: bytes that were free and are cut off are forgotten") {
+  // Of four pieces the third goes, then the last; the view of the second lies behind the third's.
+  std::string text = R"({"asset":{"version":"2.0"},"nodes":[{},{}],"buffers":[{"byteLength":96,)"
+                     R"("uri":"data:application/octet-stream;base64,AAAAAAAAgD8A)";
+  text += std::string(116, 'A') +
+          R"("}],"bufferViews":[{"buffer":0,"byteLength":8},)"
+          R"({"buffer":0,"byteOffset":48,"byteLength":24},{"buffer":0,"byteOffset":8,)"
+          R"("byteLength":24},{"buffer":0,"byteOffset":72,"byteLength":24}],"accessors":[)"
+          R"({"bufferView":0,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]})";
+  for (const char* view : {"1", "2", "3"})
+    text += std::string(R"(,{"bufferView":)") + view +
+            R"(,"componentType":5126,"count":2,"type":"VEC3"})";
+  text += R"(],"animations":[)";
+  for (const char* output : {"1", "2", "3"})
+    text += std::string(output[0] == '1' ? "" : ",") +
+            R"({"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],)"
+            R"("samplers":[{"input":0,"output":)" +
+            output + "}]}";
+  File file = text_file(text + "]}");
+  for (const int gone : {0, 2}) {
+    Patch patch(file);
+    write_clips(patch, file, {{{"", gone, {}}, {0}}});
+    file = patched(patch, file);
+    for (const json::Value& view : file.root()["bufferViews"].items()) {
+      const auto begin = view["byteOffset"].integer().value_or(0);
+      CHECK(begin + view["byteLength"].integer().value_or(0) <=
+            file.root()["buffers"].items()[0]["byteLength"].integer().value_or(0));
+    }
+  }
+  CHECK(read(file).clips[1].channels.size() == 1);
+}
+
 TEST_CASE("gltf clips: changing a clip leaves the other channels and their samplers alone") {
   const std::string last = R"("path": "rotation"}})";
   const File file = text_file(

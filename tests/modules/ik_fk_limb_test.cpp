@@ -153,6 +153,35 @@ TEST_CASE("modules ik_fk_limb: FK bends the limb and never stretches it") {
   }
 }
 
+TEST_CASE("modules ik_fk_limb: twists turn bones about themselves") {
+  const test::Rig rig(test::body(arms_and_legs(1)));
+  test::Pose bent(rig);
+  for (const std::string group : {"arm_l", "arm_r"})
+    bent.translate(group + "/ik_fk_limb.ik", {-0.1, 0.1, 0.2});
+  test::Pose twisted = bent;
+  for (const std::string group : {"arm_l", "arm_r"}) {
+    twisted.set(group + "/ik_fk_limb.ik@upper_twist", 30.0);
+    twisted.set(group + "/ik_fk_limb.ik@lower_twist", -75.0);
+  }
+  for (int side = 0; side < 2; ++side) {
+    const std::string group = side == 0 ? "arm_l" : "arm_r";
+    const Vec3 points[] = {bent.position(group + ".upper"), bent.position(group + ".lower"),
+                           bent.position(group + ".end")};
+    const char* joints[] = {".upper", ".lower", ".end"};
+    for (int i = 0; i < 3; ++i)
+      CHECK(test::distance(twisted.position(group + joints[i]), points[i]) < 1e-9);
+    for (int i = 0; i < 2; ++i) {
+      const math::Mat3 turn =
+          math::orthonormal(twisted.world(group + joints[i]).linear) *
+          math::transposed(math::orthonormal(bent.world(group + joints[i]).linear));
+      const math::Quat q = math::quaternion(turn);
+      const Vec3 bone = math::normalised(points[i + 1] - points[i]);
+      const double angle = 2 * math::degrees(math::atan2(math::dot({q.x, q.y, q.z}, bone), q.w));
+      CHECK(angle == doctest::Approx((i == 0 ? 30 : -75)));
+    }
+  }
+}
+
 TEST_CASE("modules ik_fk_limb: IK controls stay where they are while the body moves") {
   const test::Rig rig(test::body(arms_and_legs(1)));
   test::Pose pose(rig);

@@ -23,6 +23,8 @@ struct TwoBone {
     kStartScale,
     kMiddleScale
   };
+  // Rows of the twist, which has one or, where joints may be turned about their bones, three.
+  enum Twist : std::size_t { kOfPlane, kOfStart, kOfMiddle };
   enum Table : std::size_t { kGoalOffset = 0, kStartOffset = 3, kMiddleOffset = 7, kNormal = 11 };
 
   // Nearer to straight or folded than this (relative) counts as exactly so: the angle there is the
@@ -55,12 +57,14 @@ struct TwoBone {
     plane.normal = rotate(twist, plane.normal);
     const Bones bones = bend(plane, a, b, generic::length(to_goal));
 
+    const Vec3 first_normal = turned(lanes, kOfStart, bones.first, plane.normal);
+    const Vec3 second_normal = turned(lanes, kOfMiddle, bones.second, plane.normal);
     // A mirrored base is one whose z is turned over.
     const Vec3 mirror{Real(1.0), Real(1.0), select(base_scale.z < 0.0, Real(-1.0), Real(1.0))};
     const Mat3 first =
-        joint_axes(bones.first, plane.normal, quat_at(d + kStartOffset), scaled(upper, mirror));
+        joint_axes(bones.first, first_normal, quat_at(d + kStartOffset), scaled(upper, mirror));
     const Mat3 second =
-        joint_axes(bones.second, plane.normal, quat_at(d + kMiddleOffset), scaled(lower, mirror));
+        joint_axes(bones.second, second_normal, quat_at(d + kMiddleOffset), scaled(lower, mirror));
     const Vec3 start_total = scaled(base_scale, start_scale);
     const Vec3 middle_total = scaled(start_total, middle_scale);
     lanes.put(0, world(first, start_total, start));
@@ -130,6 +134,12 @@ struct TwoBone {
     const Quat correction =
         select(generic::is_zero(seen), Quat{}, generic::between(generic::normalised(seen, x), x));
     return axes * generic::matrix(correction * offset);
+  }
+
+  /// The bend normal as a joint that is turned about its bone takes it.
+  RIGC_INLINE static Vec3 turned(const Lanes& lanes, Twist row, Vec3 bone, Vec3 normal) {
+    if (lanes.width(kTwist) <= row) return normal;
+    return rotate(generic::axis_angle(bone, generic::radians(lanes.number(kTwist, row))), normal);
   }
 
   RIGC_INLINE static Affine world(const Mat3& r, Vec3 scale, Vec3 origin) {

@@ -100,6 +100,28 @@ void make_settings(Builder& b, Limb& limb) {
   limb.fk_weight = {rest_of, expression::kOutput};
 }
 
+/// Turns of the upper and the lower bone about themselves, which goal and pole cannot say. Equal
+/// values on both sides of a character mirror each other.
+void add_twist(Builder& b, const Limb& limb, std::size_t i) {
+  scene::UserAttribute twist;
+  twist.name = i == 0 ? "upper_twist" : "lower_twist";
+  twist.flavour = scene::UserAttribute::Flavour::angle;
+  Plug plug = b.add_attribute(limb.ik, std::move(twist));
+  if (is_mirrored(b, limb.joints[i])) {
+    namespace expression = scene::expression;
+    const NodeId negative = b.make({.kind = scene::Kind::expression,
+                                    .role = "driver",
+                                    .joint = limb.joints[i],
+                                    .parent = {},
+                                    .suffix = "twist"});
+    b.set({negative, expression::kCode}, std::string("-$0"));
+    b.set({negative, expression::kInputs, 0}, 0.0);
+    b.connect(plug, {negative, expression::kInputs, 0});
+    plug = {negative, expression::kOutput};
+  }
+  b.connect(plug, {limb.solver, i == 0 ? scene::ik2::kStartTwist : scene::ik2::kMiddleTwist});
+}
+
 /// Each joint turns with its FK control and with what IK says, by weight.
 void blend(Builder& b, const Limb& limb) {
   namespace constraint = scene::constraint;
@@ -118,13 +140,33 @@ void blend(Builder& b, const Limb& limb) {
   }
 }
 
+/// What a joint that the skeleton does not take along keeps its place under: the joint before, and
+/// the translation of the FK control, which so moves it off its place in FK and in IK. Clips of
+/// models whose feet hang under the root do that.
+NodeId make_place(Builder& b, const Limb& limb, std::size_t i) {
+  const math::Affine frame = rest(b, limb.fk[i]);
+  const NodeId zero = b.make({.kind = scene::Kind::transform,
+                              .role = "space",
+                              .joint = limb.joints[i],
+                              .parent = {},
+                              .suffix = "place_zero"});
+  hang(b, zero, limb.joints[i - 1], frame);
+  const NodeId place = b.make({.kind = scene::Kind::transform,
+                               .role = "space",
+                               .joint = limb.joints[i],
+                               .parent = zero,
+                               .suffix = "place"});
+  b.connect({limb.fk[i], transform::kTranslate}, {place, transform::kTranslate});
+  return place;
+}
+
 /// Lengths stay: a joint that the skeleton does not take along (a foot that hangs under the root)
 /// keeps its place seen from the joint before, the first from what the FK chain hangs on.
 void carry_joints(Builder& b, const Limb& limb) {
   for (std::size_t i = 0; i < 3; ++i) {
     const NodeId before = i == 0 ? limb.space : limb.joints[i - 1];
     if (carried_by(b, limb.joints[i], before)) continue;
-    carry(b, limb.joints[i], i == 0 ? limb.fk[0] : before);
+    carry(b, limb.joints[i], i == 0 ? limb.fk[0] : make_place(b, limb, i));
   }
 }
 
@@ -144,6 +186,7 @@ void ik_fk_limb(Builder& b) {
   if (!b.failed()) make_settings(b, limb);
   if (b.failed()) return;
   limb.solver = make_two_bone(b, limb.bones, limb.ik, limb.pole, 0);
+  for (const std::size_t i : {0u, 1u}) add_twist(b, limb, i);
   blend(b, limb);
   carry_joints(b, limb);
 }

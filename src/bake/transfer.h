@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Transfer, the reverse of a bake: a clip on joints becomes a clip on the controls that move them.
+// Test: tests/bake/transfer_test.cpp
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "anim/clip.h"
+#include "bake/bake.h"
+#include "base/diagnostics.h"
+#include "scene/scene.h"
+
+namespace rigc::bake {
+
+/// An attribute that decides whether joints follow FK controls or a solver.
+struct Switch {
+  scene::Plug attribute;  ///< a keyable user attribute
+  double fk = 0, ik = 1;  ///< its values
+  std::string group;      ///< local group of the control that has it: "arm_l"
+};
+
+/// All switches of a scene, in the order of its nodes.
+std::vector<Switch> find_switches(const scene::Scene& scene, Diagnostics& diagnostics);
+
+struct SwitchValue {
+  scene::Plug attribute;
+  double value = 0;
+};
+
+struct TransferOptions {
+  /// Frames a second; 0: the union of the keys' times.
+  double fps = 0;
+  /// Seconds; else of the keys on joints.
+  std::optional<double> start, end;
+  /// As for a bake.
+  std::vector<Standing> standings;
+  /// Each gets a key. What is not named stays as the scene has it.
+  std::vector<SwitchValue> switches;
+};
+
+/// Where the rig is farthest from the joints' own clip.
+struct Deviation {
+  double distance = 0;                  ///< between the joint's origins, rig units
+  double angle = 0;                     ///< radians
+  scene::NodeId farthest, most_turned;  ///< invalid: none at all
+};
+
+struct TransferReport {
+  std::size_t joints = 0;  ///< that the clip animates; 0: there was nothing to transfer
+  std::size_t frames = 0;
+  std::size_t controls = 0;  ///< that got keys, switches included
+  std::size_t channels = 0;
+  std::size_t keys = 0;
+  std::vector<scene::NodeId> kept;  ///< joints with channels of their own: no control says them
+  Deviation at_keys;
+  Deviation between;  ///< in the middle between two keys
+};
+
+struct Transferred {
+  anim::Clip clip;           ///< what comes
+  std::vector<int> dropped;  ///< indices of the channels that go, in the file's animation
+};
+
+/// `nodes` as for a bake. The joints' motion is what the file plays without its rig; channels on
+/// controls that nothing is solved for are taken as they are. A joint's translation or scale that
+/// the rig does not drive stays a channel of the joint, where it differs from the rig's.
+std::optional<Transferred> transfer(const scene::Scene& scene, const std::vector<int>& nodes,
+                                    const anim::Clip& clip, const TransferOptions& options,
+                                    TransferReport& report, Diagnostics& diagnostics);
+
+}  // namespace rigc::bake

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// A two-bone limb backwards: the arithmetic of eval's kernel, read the other way.
+// Test: tests/bake/transfer_test.cpp
+#include "bake/transfer_limb.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rigc::bake {
+namespace {
+
+using math::Vec3;
+
+/// Sine of the angle between the bones below which the start's joint says the plane of the limb;
+/// above twice of it the bones do.
+constexpr double kStraight = 2e-5;
+
+Vec3 perpendicular_part(Vec3 v, Vec3 unit) { return v - unit * math::dot(v, unit); }
+
+}  // namespace
+
+Bones bones_of(const Limb& limb, const math::Affine& start, const math::Affine& middle) {
+  const Vec3 upper = math::scaled(limb.middle, limb.start_scale);
+  const Vec3 lower = math::scaled(limb.end, math::scaled(limb.start_scale, limb.middle_scale));
+  const double determinant = math::determinant(limb.base.linear);
+  const double size = math::cbrt(std::fabs(determinant));
+  const Vec3 mirror{1, 1, determinant < 0 ? -1.0 : 1.0};
+  Bones bones;
+  bones.first_child = math::normalised(math::scaled(upper, mirror));
+  bones.second_child = math::normalised(math::scaled(lower, mirror));
+  bones.first = math::orthonormal(start.linear) * bones.first_child;
+  bones.second = math::orthonormal(middle.linear) * bones.second_child;
+  bones.start = limb.base * limb.start;
+  bones.middle = bones.start + bones.first * (math::length(upper) * size);
+  bones.end = bones.middle + bones.second * (math::length(lower) * size);
+  return bones;
+}
+
+Vec3 rounded_goal(const Bones& bones, const math::Affine& to_point) {
+  const Vec3 exact = math::inverse(to_point) * bones.end;
+  const double distance = math::length(bones.end - bones.start);
+  const auto error_of = [&](Vec3 translation) {
+    return std::fabs(math::length(to_point * translation - bones.start) - distance);
+  };
+  Vec3 below, above;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto nearest = static_cast<float>(exact[i]);
+    const bool up = static_cast<double>(nearest) < exact[i];
+    below[i] = static_cast<double>(nearest);
+    above[i] = static_cast<double>(std::nextafter(nearest, up ? HUGE_VALF : -HUGE_VALF));
+  }
+  Vec3 best = below;
+  for (unsigned choice = 1; choice < 8; ++choice) {
+    const Vec3 other{choice & 1u ? above.x : below.x, choice & 2u ? above.y : below.y,
+                     choice & 4u ? above.z : below.z};
+    if (error_of(other) < error_of(best)) best = other;
+  }
+  return best;
+}
+
+Vec3 bent_side(const Bones& bones, const math::Affine& start, math::Quat bone_offset) {
+  const Vec3 direction = math::normalised(bones.end - bones.start, bones.first);
+  const math::Mat3 axes = math::orthonormal(start.linear) *
+                          math::transposed(math::matrix(math::normalised(bone_offset)));
+  const Vec3 turned =
+      math::normalised(math::cross(axes.z, direction), math::perpendicular(direction));
+  const double sine = math::length(math::cross(bones.first, bones.second));
+  const double weight = std::clamp(sine / kStraight - 1, 0.0, 1.0);
+  const Vec3 out = perpendicular_part(bones.middle - bones.start, direction);
+  const Vec3 mixed = math::normalised(out, turned) * weight + turned * (1 - weight);
+  return math::normalised(perpendicular_part(mixed, direction), turned);
+}
+
+double twist_of(const Bones& bones, Vec3 side, Vec3 bone, Vec3 child, math::Quat joint_offset,
+                const math::Affine& joint) {
+  const Vec3 direction = math::normalised(bones.end - bones.start, bones.first);
+  const Vec3 normal = math::cross(direction, side);
+  const math::Mat3 frame = math::frame(bone, math::cross(normal, bone));
+  const math::Quat offset = math::normalised(joint_offset);
+  const math::Quat correction =
+      math::between(math::normalised(math::rotate(offset, child)), {1, 0, 0});
+  const math::Mat3 untwisted = frame * math::matrix(correction * offset);
+  const math::Quat turn =
+      math::quaternion(math::orthonormal(joint.linear) * math::transposed(untwisted));
+  return math::degrees(2 * math::atan2(math::dot(Vec3{turn.x, turn.y, turn.z}, bone), turn.w));
+}
+
+}  // namespace rigc::bake

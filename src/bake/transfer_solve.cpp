@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+// Solves the unknowns of a transfer. Each level is a program of its own, which computes no more
+// than the parents of that level. Test: tests/bake/transfer_test.cpp
+#include "bake/transfer_solve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bake/transfer_limb.h"
+#include "bake/transfer_order.h"
+#include "bake/transfer_plugs.h"
+#include "eval/evaluate.h"
+
+namespace rigc::bake {
+namespace {
+
+/// What counts as rounding in an angle.
+constexpr double kDegreeNoise = 2e-5;
+
+using math::Affine;
+using math::Vec3;
+using scene::NodeId;
+namespace transform = scene::transform;
+
+/// Worlds of all aims in one frame.
+class Pose {
+ public:
+  Pose(const std::vector<std::vector<Affine>>& worlds, std::size_t frame)
+      : worlds_(worlds), frame_(frame) {}
+  const Affine& operator[](int aim) const { return worlds_[static_cast<std::size_t>(aim)][frame_]; }
+
+ private:
+  const std::vector<std::vector<Affine>>& worlds_;
+  std::size_t frame_;
+};
+
+/// What the rig says of an unknown's surroundings in one frame.
+struct Known {
+  Affine parent;
+  Affine relay;  ///< parent of what moves the joint in place of the control
+  Limb limb;     ///< of those that move one
+};
+
+/// A constraint takes a rotation from a matrix by its x, then its y. So it comes back also where
+/// joint and control hang under uneven scale, by the same rule from what the control's parent sees.
+math::Trs follow(const Unknown& u, const Pose& pose, const Known& known, math::Trs local) {
+  const Affine to_parent = math::inverse(known.parent);
+  if (u.turns) {
+    const math::Mat3 seen = math::orthonormal(to_parent.linear * pose[u.turn_aim].linear);
+    local.rotation = math::quaternion(seen * math::transposed(math::orthonormal(u.offset.linear)));
+  }
+  if (u.scales) {
+    const math::Mat3 wanted = pose[u.turn_aim].linear * math::inverse(u.offset.linear);
+    local.scale = math::decompose({to_parent.linear * wanted, {}}).scale;
+  }
+  if (!u.moves) return local;
+  if (u.relay.valid()) {
+    local.translation = math::inverse(known.relay) * pose[u.move_aim].origin - u.control_point;
+    return local;
+  }
+  const math::Mat3 axes = math::compose({{}, local.rotation, local.scale}).linear;
+  if (u.solver.valid()) {
+    const Bones bones = bones_of(known.limb, pose[u.start], pose[u.middle]);
+    const Affine to_point{known.parent.linear,
+                          known.parent.linear * (axes * u.control_point) + known.parent.origin};
+    local.translation = rounded_goal(bones, to_point);
+    return local;
+  }
+  local.translation = to_parent * pose[u.move_aim].origin - axes * u.control_point;
+  return local;
+}
+
+math::Trs pole(const Unknown& u, const Pose& pose, const Known& known, math::Trs local) {
+  const Bones bones = bones_of(known.limb, pose[u.start], pose[u.middle]);
+  const Vec3 side = bent_side(bones, pose[u.start], u.bone_offset);
+  const Vec3 direction = math::normalised(bones.end - bones.start, bones.first);
+  const Vec3 to_middle = bones.middle - bones.start;
+  const Vec3 foot = bones.start + direction * math::dot(to_middle, direction);
+  const double out = math::dot(bones.middle - foot, side);
+  local.translation = math::inverse(known.parent) * (foot + side * (out + u.distance));
+  return local;
+}
+
+/// Value of the attribute, of those a turn apart the one nearest to the value before.
+double twist(const Unknown& u, const Pose& pose, const Known& known, double before) {
+  const Bones bones = bones_of(known.limb, pose[u.start], pose[u.middle]);
+  const Vec3 side = bent_side(bones, pose[u.start], u.bone_offset);
+  const Vec3 bone = u.of_middle ? bones.second : bones.first;
+  const Vec3 child = u.of_middle ? bones.second_child : bones.first_child;
+  const Affine& joint = pose[u.of_middle ? u.middle : u.start];
+  const double degrees = twist_of(bones, side, bone, child, u.joint_offset, joint);
+  const double value = u.at + degrees * u.per_degree, turn = 360 * u.per_degree;
+  return value + std::nearbyint((before - value) / turn) * turn;
+}
+
+math::Trs look(const Unknown& u, const Pose& pose, const Known& known, math::Trs local) {
+  const math::Mat3 axes = math::orthonormal(pose[u.turn_aim].linear) *
+                          math::transposed(math::matrix(math::normalised(u.bone_offset)));
+  const Vec3 target = pose[u.turn_aim].origin + axes.x * u.distance;
+  local.translation = math::inverse(known.parent) * target;
+  return local;
+}
+
+/// `played`: what the joint plays, seen from its parent in the scene.
+math::Trs own(const Unknown& u, const math::Trs& played, math::Trs local) {
+  if (u.moves) local.translation = played.translation;
+  if (u.turns) local.rotation = played.rotation;
+  if (u.scales) local.scale = played.scale;
+  return local;
+}
+
+math::Trs solve_one(const Unknown& u, const Pose& pose, const Known& known, const math::Trs& rest) {
+  switch (u.rule) {
+    case Unknown::Rule::own:
+      return own(u, math::decompose(math::inverse(known.parent) * pose[u.turn_aim]), rest);
+    case Unknown::Rule::pole:
+      return pole(u, pose, known, rest);
+    case Unknown::Rule::twist:
+      return rest;
+    case Unknown::Rule::look:
+      return look(u, pose, known, rest);
+    case Unknown::Rule::follow:
+      break;
+  }
+  return follow(u, pose, known, rest);
+}
+
+Affine affine_at(const double* rows, int lane) {
+  double n[12];
+  eval::get_lane(rows, lane, n, 12);
+  return {{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}}, {n[9], n[10], n[11]}};
+}
+
+Vec3 vector_at(const double* rows, int lane) {
+  double n[3];
+  eval::get_lane(rows, lane, n, 3);
+  return {n[0], n[1], n[2]};
+}
+
+/// Outputs from `at` on, which goes past them.
+Known read_known(const eval::Instance& instance, const Unknown& u, std::size_t& at, int lane) {
+  Known known;
+  known.parent = affine_at(instance.output(at++), lane);
+  if (u.relay.valid()) known.relay = affine_at(instance.output(at++), lane);
+  if (!u.solver.valid()) return known;
+  known.limb.base = affine_at(instance.output(at++), lane);
+  for (Vec3* vector : {&known.limb.start, &known.limb.middle, &known.limb.end,
+                       &known.limb.start_scale, &known.limb.middle_scale})
+    *vector = vector_at(instance.output(at++), lane);
+  return known;
+}
+
+void copy(const math::Trs& from, anim::Path path, math::Trs& to) {
+  if (path == anim::Path::translation) to.translation = from.translation;
+  if (path == anim::Path::rotation) to.rotation = from.rotation;
+  if (path == anim::Path::scale) to.scale = from.scale;
+}
+
+bool is_twist(const Unknown& u) { return u.rule == Unknown::Rule::twist; }
+
+class Solver {
+ public:
+  Solver(const scene::Scene& scene, const SolveInput& input)
+      : scene_(scene), input_(input), unknowns_(input.plan.unknowns), noise_(scene, input.aims) {
+    solution_.locals.resize(unknowns_.size());
+    solution_.numbers.resize(unknowns_.size());
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+      if (is_twist(unknowns_[i]))
+        solution_.numbers[i].resize(input.times.size());
+      else
+        solution_.locals[i].resize(input.times.size());
+    }
+  }
+
+  bool solve_level(int level, Diagnostics& diagnostics) {
+    const auto below = [](const Unknown& u, int at) { return u.level < at; };
+    const auto at = [&](int l) {
+      return static_cast<std::size_t>(
+          std::lower_bound(unknowns_.begin(), unknowns_.end(), l, below) - unknowns_.begin());
+    };
+    const std::size_t first = at(level), last = at(level + 1);
+    const auto program = eval::compile(scene_, request(first, last), diagnostics);
+    if (!program) return false;
+    const auto set = [&](eval::Instance& instance, std::size_t frame, int lane) {
+      set_inputs(instance, first, frame, lane);
+    };
+    const auto take = [&](const eval::Instance& instance, std::size_t frame, int lane) {
+      const Pose pose(input_.worlds, frame);
+      std::size_t output = 0;
+      for (std::size_t i = first; i < last; ++i) {
+        const Unknown& u = unknowns_[i];
+        const Known known = read_known(instance, u, output, lane);
+        if (is_twist(u)) {
+          keep_number(i, frame, twist(u, pose, known, number_before(i, frame)));
+          continue;
+        }
+        const math::Trs rest = scene_.local(u.node);
+        keep(i, frame, u.plays ? own(u, played(u, frame), rest) : solve_one(u, pose, known, rest));
+      }
+    };
+    eval::for_frames(*program, input_.times.size(), set, take);
+    for (std::size_t i = first; i < last; ++i) {
+      if (is_twist(unknowns_[i])) settle_number(i);
+      for (const anim::Path path : kPaths)
+        if (solves(unknowns_[i], path)) settle(i, path);
+    }
+    return true;
+  }
+
+  Solution take_solution() { return std::move(solution_); }
+
+ private:
+  math::Trs played(const Unknown& u, std::size_t frame) const {
+    return local_at(input_.aims[static_cast<std::size_t>(u.turn_aim)], input_.times[frame]);
+  }
+
+  /// Parents of unknowns `first` to `last`, from what is known of those before.
+  eval::Request request(std::size_t first, std::size_t last) const {
+    eval::Request request;
+    for (const eval::ClipInput& input : input_.clip) request.inputs.push_back(input.plug);
+    for (const SwitchValue& value : input_.switches) request.inputs.push_back(value.attribute);
+    for (std::size_t i = 0; i < first; ++i) {
+      const Unknown& u = unknowns_[i];
+      if (is_twist(u)) request.inputs.push_back(u.attribute);
+      for (const anim::Path path : kPaths)
+        if (solves(u, path)) request.inputs.push_back(plug_of(u.node, path));
+    }
+    for (std::size_t i = first; i < last; ++i) {
+      request.outputs.push_back({unknowns_[i].node, transform::kParent});
+      if (unknowns_[i].relay.valid())
+        request.outputs.push_back({unknowns_[i].relay, transform::kParent});
+      if (!unknowns_[i].solver.valid()) continue;
+      for (const std::uint16_t read : kLimbReads)
+        request.outputs.push_back({unknowns_[i].solver, read});
+    }
+    return request;
+  }
+
+  void set_inputs(eval::Instance& instance, std::size_t count, std::size_t frame, int lane) const {
+    std::size_t at = 0;
+    for (const eval::ClipInput& input : input_.clip) {
+      double n[4];
+      const bool rotation = input.plug.attribute == transform::kRotation;
+      anim::sample(*input.curve, rotation, input_.times[frame], n);
+      eval::set_lane(instance.input(at++), lane, n, input.curve->width);
+    }
+    for (const SwitchValue& value : input_.switches)
+      eval::set_lane(instance.input(at++), lane, &value.value, 1);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (is_twist(unknowns_[i])) {
+        eval::set_lane(instance.input(at++), lane, &solution_.numbers[i][frame], 1);
+        continue;
+      }
+      const math::Trs& local = solution_.locals[i][frame];
+      const double t[3] = {local.translation.x, local.translation.y, local.translation.z};
+      const double r[4] = {local.rotation.x, local.rotation.y, local.rotation.z, local.rotation.w};
+      const double s[3] = {local.scale.x, local.scale.y, local.scale.z};
+      if (unknowns_[i].moves) eval::set_lane(instance.input(at++), lane, t, 3);
+      if (unknowns_[i].turns) eval::set_lane(instance.input(at++), lane, r, 4);
+      if (unknowns_[i].scales) eval::set_lane(instance.input(at++), lane, s, 3);
+    }
+  }
+
+  /// What only rounding moves stays, where the scene has it or where it begins: it gets no keys.
+  void settle(std::size_t unknown, anim::Path path) {
+    std::vector<math::Trs>& locals = solution_.locals[unknown];
+    const NodeId node = unknowns_[unknown].node;
+    const double noise = noise_.of(node, path);
+    for (const math::Trs& still : {scene_.local(node), locals.front()}) {
+      const bool stays = std::all_of(locals.begin(), locals.end(), [&](const math::Trs& local) {
+        return differ(local, still, path) <= noise;
+      });
+      if (!stays) continue;
+      for (math::Trs& local : locals) copy(still, path, local);
+      return;
+    }
+  }
+
+  void settle_number(std::size_t unknown) {
+    std::vector<double>& numbers = solution_.numbers[unknown];
+    for (const double still : {scene_.number(unknowns_[unknown].attribute), numbers.front()}) {
+      const bool stays = std::all_of(numbers.begin(), numbers.end(), [&](double number) {
+        return std::abs(number - still) <= kDegreeNoise;
+      });
+      if (!stays) continue;
+      std::fill(numbers.begin(), numbers.end(), still);
+      return;
+    }
+  }
+
+  double number_before(std::size_t unknown, std::size_t frame) const {
+    return frame == 0 ? scene_.number(unknowns_[unknown].attribute)
+                      : solution_.numbers[unknown][frame - 1];
+  }
+
+  void keep_number(std::size_t unknown, std::size_t frame, double number) {
+    solution_.numbers[unknown][frame] = static_cast<double>(static_cast<float>(number));
+  }
+
+  /// What players read of it: so that the levels above make good what rounding does below.
+  static math::Trs as_written(const math::Trs& local) {
+    const auto number = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+    const auto vector = [&](Vec3 v) { return Vec3{number(v.x), number(v.y), number(v.z)}; };
+    const math::Quat& q = local.rotation;
+    const math::Quat rounded{number(q.x), number(q.y), number(q.z), number(q.w)};
+    return {vector(local.translation), math::normalised(rounded), vector(local.scale)};
+  }
+
+  /// Of a rotation and its negative the one nearer to the frame before.
+  void keep(std::size_t unknown, std::size_t frame, math::Trs local) {
+    const math::Quat before = frame == 0 ? scene_.local(unknowns_[unknown].node).rotation
+                                         : solution_.locals[unknown][frame - 1].rotation;
+    if (math::dot(before, local.rotation) < 0) local.rotation = -local.rotation;
+    solution_.locals[unknown][frame] = as_written(local);
+  }
+
+  const scene::Scene& scene_;
+  const SolveInput& input_;
+  const std::vector<Unknown>& unknowns_;
+  Noise noise_;
+  Solution solution_;
+};
+
+}  // namespace
+
+std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input,
+                              Diagnostics& diagnostics) {
+  Solver solver(scene, input);
+  for (int level = 0; level < input.plan.levels; ++level)
+    if (!solver.solve_level(level, diagnostics)) return std::nullopt;
+  return solver.take_solution();
+}
+
+}  // namespace rigc::bake

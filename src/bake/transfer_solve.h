@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Solves the unknowns of a transfer frame by frame, level by level: with the worlds of their
+// parents as the rig evaluates them. Test: tests/bake/transfer_test.cpp
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "bake/transfer_plan.h"
+#include "eval/clip_inputs.h"
+
+namespace rigc::bake {
+
+struct SolveInput {
+  const TransferPlan& plan;
+  const std::vector<Aim>& aims;
+  const std::vector<std::vector<math::Affine>>& worlds;  ///< of the aims, [aims][frames]
+  const std::vector<eval::ClipInput>& clip;              ///< what else the clip moves
+  const std::vector<SwitchValue>& switches;
+  const std::vector<double>& times;  ///< seconds
+};
+
+/// [unknowns][frames], rotations continuous.
+struct Solution {
+  std::vector<std::vector<math::Trs>> locals;  ///< empty for twists
+  std::vector<std::vector<double>> numbers;    ///< of twists, empty for others
+};
+
+std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input,
+                              Diagnostics& diagnostics);
+
+}  // namespace rigc::bake

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// What commands on clips ask for. Test: tests/pipeline/transfer_test.cpp, tests/cli/cli_test.cpp
+#include "pipeline/clip_choice.h"
+
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "pipeline/codes.h"
+
+namespace rigc::pipeline {
+
+std::optional<std::set<std::size_t>> choose_clips(const std::string& file,
+                                                  const std::vector<std::string>& wanted,
+                                                  const std::vector<anim::Clip>& clips,
+                                                  Diagnostics& diagnostics) {
+  std::set<std::size_t> chosen;
+  std::vector<std::string> names;
+  for (const anim::Clip& clip : clips) names.push_back(clip.name);
+  for (const std::string& one : wanted) {
+    const auto number = parse_integer(one);
+    bool found = false;
+    for (std::size_t i = 0; i < clips.size(); ++i) {
+      if (clips[i].name != one && !(number && *number == static_cast<long long>(i))) continue;
+      chosen.insert(i);
+      found = true;
+    }
+    if (found) continue;
+    diagnostics.report(codes::kNoSuchClip, Place(file),
+                       fmt::format("there is no clip \"{}\"", printable(one)), suggest(one, names));
+  }
+  if (!diagnostics.ok()) return std::nullopt;
+  for (std::size_t i = 0; wanted.empty() && i < clips.size(); ++i) chosen.insert(i);
+  return chosen;
+}
+
+std::optional<double> read_rate(const std::string& file, const std::string& fps,
+                                const std::optional<double>& start,
+                                const std::optional<double>& end, Diagnostics& diagnostics) {
+  const auto rate = fps == "source" ? std::optional<double>(0) : parse_number(fps);
+  const bool usable = rate && (*rate > 0 || fps == "source") && *rate <= 10000;
+  if (usable && !(start && end && *start > *end)) return rate;
+  diagnostics.report(
+      codes::kBadRange, Place(file),
+      usable ? "--start lies after --end" : fmt::format("\"{}\" is no frame rate", printable(fps)),
+      usable ? "" : "--fps takes a number above 0, or source for the keys' own times");
+  return std::nullopt;
+}
+
+std::optional<std::vector<bake::Standing>> bake_standings(const gltf::File& file,
+                                                          const gltf::Rig& rig,
+                                                          Diagnostics& diagnostics) {
+  const auto standings = gltf::standings(file, rig, diagnostics);
+  if (!standings) return std::nullopt;
+  std::vector<bake::Standing> out;
+  for (const gltf::Standing& s : *standings) out.push_back({s.base, s.between, s.local});
+  return out;
+}
+
+}  // namespace rigc::pipeline

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What commands on clips ask for: which clips, at which rate, from when to when.
+// Test: tests/pipeline/transfer_test.cpp, tests/cli/cli_test.cpp
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "anim/clip.h"
+#include "bake/bake.h"
+#include "base/diagnostics.h"
+#include "gltf/rig.h"
+
+namespace rigc::pipeline {
+
+/// Indices of the clips that are named, by name or number; all where none is.
+std::optional<std::set<std::size_t>> choose_clips(const std::string& file,
+                                                  const std::vector<std::string>& wanted,
+                                                  const std::vector<anim::Clip>& clips,
+                                                  Diagnostics& diagnostics);
+
+/// Frames a second: a number above 0, or 0 for `source`; reported where it is neither, or where the
+/// range ends before it starts.
+std::optional<double> read_rate(const std::string& file, const std::string& fps,
+                                const std::optional<double>& start,
+                                const std::optional<double>& end, Diagnostics& diagnostics);
+
+/// Where the joints of a rig stand in the file, as a bake takes it.
+std::optional<std::vector<bake::Standing>> bake_standings(const gltf::File& file,
+                                                          const gltf::Rig& rig,
+                                                          Diagnostics& diagnostics);
+
+}  // namespace rigc::pipeline

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Transfer a file: clips on joints become clips on the controls of its rigs.
+// Test: tests/pipeline/transfer_test.cpp
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bake/transfer.h"
+#include "base/diagnostics.h"
+
+namespace rigc::pipeline {
+
+struct TransferRequest {
+  std::string file;
+  std::vector<std::string> clips;  ///< names or numbers; empty: all
+  std::vector<std::string> limbs;  ///< GROUP=ik|fk, GROUP may be `all`; what is not named is FK
+  std::string fps = "source";      ///< a number, or "source"
+  std::optional<double> start, end;
+  bool strict = false;  ///< what the controls cannot say is an error
+};
+
+/// A deviation for people.
+struct Off {
+  double mm = 0;       ///< of a character of the template's size
+  double percent = 0;  ///< of the character's height
+  double degrees = 0;
+  std::string joint;         ///< farthest
+  std::string turned_joint;  ///< most turned
+};
+
+struct TransferredClip {
+  std::string name;
+  bool passed_through = false;    ///< it animates no joint that a rig drives
+  bake::TransferReport report;    ///< numbers of all rigs of the file
+  std::vector<std::string> kept;  ///< joints that keep channels of their own
+  Off at_keys, between;
+};
+
+struct TransferredFile {
+  std::vector<TransferredClip> clips;
+  std::uint64_t bytes = 0;
+};
+
+std::optional<TransferredFile> transfer_file(const TransferRequest& request, const std::string& out,
+                                             Diagnostics& diagnostics);
+
+}  // namespace rigc::pipeline
