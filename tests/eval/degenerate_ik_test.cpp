@@ -237,10 +237,7 @@ TEST_CASE("eval degenerate: chain, a straight one bends to its pole, or somewher
   }
 }
 
-// Near full extension FABRIK converges slowly and the closing step, which bends one joint, cannot
-// straighten two: the chain stays bent by 3e-3 of its length, to the other side than its pole, and
-// misses its goal by 3e-5, until the goal is exactly at full reach, where it snaps straight.
-TEST_CASE("eval degenerate: chain, nearly straight" * doctest::should_fail()) {
+TEST_CASE("eval degenerate: chain, nearly straight") {
   Chain chain;
   chain.has_pole = true;
   chain.pole = at({0, 4, 0});
@@ -251,7 +248,8 @@ TEST_CASE("eval degenerate: chain, nearly straight" * doctest::should_fail()) {
     // A bow over 3 that is longer by `left` is about sqrt(left) high.
     const auto up = chain.places(chain.solve());
     for (const std::size_t i : {1u, 2u}) {
-      CHECK(up[i].y > 0);
+      // Up to the root of rounding noise.
+      CHECK(up[i].y > -1e-6);
       CHECK(up[i].y < 2 * std::sqrt(left));
     }
   }

@@ -196,6 +196,34 @@ struct Points {
     for (std::size_t i = 0; i < bones.size(); ++i)
       at[i + 1] = at[i] + unit(at[i + 1] - at[i]) * bones[i];
   }
+  /// Straightens all joints alike: tangents of half the bones' angles to the line from the
+  /// root to the end times a factor, found by halving an interval. Only straightens.
+  bool stretch(V goal) {
+    const V line = unit(at.back() - root());
+    const Real wanted = length(goal - root());
+    std::vector<V> dirs;
+    for (std::size_t i = 0; i < bones.size(); ++i) dirs.push_back(unit(at[i + 1] - at[i]));
+    const auto leaning = [&](V d, Real factor) {
+      const Real angle = 2 * atanl(factor * tanl(atan2l(length(cross(line, d)), dot(line, d)) / 2));
+      return line * cosl(angle) + unit(beside(d, line)) * sinl(angle);
+    };
+    const auto end = [&](Real factor) {
+      V sum;
+      for (std::size_t i = 0; i < bones.size(); ++i)
+        sum = sum + leaning(dirs[i], factor) * bones[i];
+      return sum;
+    };
+    Real low = 0, high = 2;
+    if (length(end(high)) > wanted) return false;
+    for (int i = 0; i < 200; ++i) {
+      const Real middle = (low + high) / 2;
+      (length(end(middle)) > wanted ? low : high) = middle;
+    }
+    const M turned = shortest(unit(end(high)), unit(goal - root()));
+    for (std::size_t i = 0; i < bones.size(); ++i)
+      at[i + 1] = at[i] + turned * (leaning(dirs[i], high) * bones[i]);
+    return true;
+  }
   /// Bends at the joint that bends most, by the law of cosines; gives how clear that choice was.
   Real close(V goal) {
     std::size_t k = 1;
@@ -264,6 +292,7 @@ inline Result chain(const Arguments& a, const Numbers& d) {
     for (std::size_t i = 0; i + 1 < count; ++i) p.at[i + 1] = p.at[i] + to_goal * p.bones[i];
   } else {
     for (int i = 0; i < static_cast<int>(d[2]); ++i) p.iterate(goal);
+    if (count > 2) out.certain = p.stretch(goal) && out.certain;
     for (int i = 0; i < 4 && count > 2; ++i) out.certain = p.close(goal) > 1e-6L && out.certain;
   }
   M above;

@@ -74,7 +74,7 @@ double worst_error(Op op, const World& world) {
       worst = fmaxl(worst, error / fmaxl(1, want.condition));
     }
   }
-  CHECK(compared > kBlocks * eval::kLanes * 3 / 4);
+  CHECK(compared > kBlocks * eval::kLanes * 2 / 3);
   return static_cast<double>(worst) * 0x1p52;
 }
 

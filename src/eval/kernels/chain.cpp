@@ -74,10 +74,13 @@ void solve(const Call& call, int lane) {
   for (int i = 1; i < p.count; ++i) {
     p.at[i] = p.at[0] + math::rotate(turn, rest.at[i] - rest.at[0]);
   }
-  const Vec3 bend = has_pole ? math::rotate(math::axis_angle(math::normalised(goal - p.at[0]),
-                                                             math::radians(call.in(kTwist)[lane])),
-                                            chain::across(pole - p.at[0], goal - p.at[0]))
-                             : Vec3{};
+  Vec3 bend = has_pole ? math::rotate(math::axis_angle(math::normalised(goal - p.at[0]),
+                                                       math::radians(call.in(kTwist)[lane])),
+                                      chain::across(pole - p.at[0], goal - p.at[0]))
+                       : Vec3{};
+  // To one side of the rest, which turns with it: so it does not jump as the goal moves.
+  const Vec3 along = chain::direction(rest, rest.at[rest.count - 1] - rest.at[0]);
+  if (bend == Vec3{}) bend = math::rotate(turn, math::perpendicular(along));
   chain::reach(p, goal, bend, static_cast<int>(d[kIterations]));
 
   Quat above;

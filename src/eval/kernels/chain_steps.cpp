@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// FABRIK, and a last closed-form step: what the iterations left open is closed by bending the chain
-// at its most bent joint, so that a goal in reach is reached exactly.
+// FABRIK, and two last steps. First all bends of the chain are scaled alike until its end is as far
+// away as the goal: that is smooth, also through full extension, where the iterations converge
+// slowly. What is left, in chains that are folded up, is closed by bending the most bent joint.
 // Test: tests/eval/chain_test.cpp
 #include "eval/kernels/chain_steps.h"
 
@@ -18,6 +19,9 @@ constexpr double kBent = 1e-6;
 // How far a straight chain is bowed before the iterations, which cannot leave a line by themselves.
 constexpr double kBow = 0.1;
 constexpr int kClosings = 4;
+// Steps of Newton's method for the scale of the bends, and how large its square may become.
+constexpr int kSteps = 12;
+constexpr double kMostBend = 16;
 
 double total_length(const Points& p) {
   double sum = 0;
@@ -46,6 +50,72 @@ void forward(Points& p, Vec3 root, Vec3 fallback) {
   for (int i = 0; i + 1 < p.count; ++i) {
     p.at[i + 1] = pulled(p.at[i], p.at[i + 1], p.lengths[i], fallback);
   }
+}
+
+// A bone seen from the line from root to end: its part along it, and beside it. With the tangent of
+// half its angle to the line scaled by s it is line * (q^2 - s^2 b^2) + beside * 2 s q, divided by
+// q^2 + s^2 b^2, where q = 1 + along and b = |beside|.
+struct Lean {
+  Vec3 beside;
+  double q = 2, bb = 0;
+};
+
+// The end of the chain from its root, and its derivative by the square of the scale.
+struct End {
+  Vec3 at, rate;
+};
+
+Vec3 leaning(const Lean& bone, Vec3 line, double scale) {
+  const double qq = bone.q * bone.q, sbb = scale * scale * bone.bb;
+  if (!(qq + sbb > 0)) return -line;
+  return (line * (qq - sbb) + bone.beside * (2 * scale * bone.q)) * (1 / (qq + sbb));
+}
+
+Vec3 rate_of(const Lean& bone, Vec3 line, double scale) {
+  const double qq = bone.q * bone.q, sbb = scale * scale * bone.bb;
+  if (!(qq + sbb > 0)) return {};
+  const double per = 1 / ((qq + sbb) * (qq + sbb));
+  return line * (-2 * qq * bone.bb * per) + bone.beside * (bone.q * (qq - sbb) / scale * per);
+}
+
+// Scales the bends of all joints until the end is as far from the root as the goal is, and turns
+// the chain to the goal. By Newton's method in the square of the scale, in which a nearly straight
+// chain is linear.
+void stretch(Points& p, Vec3 goal, Vec3 along, double total) {
+  const Vec3 root = p.at[0];
+  const double wanted = math::length(goal - root);
+  const double reached = math::length(p.at[p.count - 1] - root);
+  const Vec3 line = math::normalised(p.at[p.count - 1] - root, along);
+  std::array<Lean, kMaxJoints> bones;
+  for (int i = 0; i + 1 < p.count; ++i) {
+    const Vec3 bone = math::normalised(p.at[i + 1] - p.at[i], line);
+    const double x = math::dot(bone, line);
+    const Vec3 beside = bone - line * x;
+    bones[i] = {beside, 1 + x, math::dot(beside, beside)};
+  }
+  // Exact where all angles are small.
+  const double given = total - reached;
+  double squared = given > 1e-15 * total ? (total - wanted) / given : 1;
+  squared = squared > kMostBend ? kMostBend : squared;
+  for (int k = 0; k < kSteps; ++k) {
+    const double scale = math::sqrt(squared);
+    End end;
+    for (int i = 0; i + 1 < p.count; ++i) {
+      end.at = end.at + leaning(bones[i], line, scale) * p.lengths[i];
+      end.rate = end.rate + rate_of(bones[i], line, scale) * p.lengths[i];
+    }
+    const double miss = math::dot(end.at, end.at) - wanted * wanted;
+    const double rate = 2 * math::dot(end.at, end.rate);
+    const double least = squared * 0x1p-10;
+    const double next = rate < 0 ? squared - miss / rate : squared;
+    squared = next < least ? least : next > kMostBend ? kMostBend : next;
+  }
+  const double scale = math::sqrt(squared);
+  for (int i = 0; i + 1 < p.count; ++i)
+    p.at[i + 1] = p.at[i] + leaning(bones[i], line, scale) * p.lengths[i];
+  const Vec3 now = math::normalised(p.at[p.count - 1] - root, along);
+  const math::Quat turn = math::between(now, math::normalised(goal - root, now));
+  for (int i = 1; i < p.count; ++i) p.at[i] = root + math::rotate(turn, p.at[i] - root);
 }
 
 int most_bent(const Points& p) {
@@ -83,13 +153,12 @@ void close(Points& p, Vec3 goal, int k) {
   p.at[k] = new_joint;
 }
 
-void bow(Points& p, Vec3 along, Vec3 bend, double total) {
-  const Vec3 side = bend == Vec3{} ? math::perpendicular(along) : bend;
+void bow(Points& p, Vec3 bend, double total) {
   double passed = 0;
   for (int i = 1; i + 1 < p.count; ++i) {
     passed += p.lengths[i - 1];
     const double s = passed / total;
-    p.at[i] = p.at[i] + side * (kBow * total * 4 * s * (1 - s));
+    p.at[i] = p.at[i] + bend * (kBow * total * 4 * s * (1 - s));
   }
 }
 
@@ -132,11 +201,12 @@ void reach(Points& p, Vec3 goal, Vec3 bend, int iterations) {
   const Vec3 root = p.at[0];
   const Vec3 along = direction(p, math::normalised(goal - root, p.at[p.count - 1] - root) * total);
   if (math::length(goal - root) >= total * (1 - kStraight)) return stretch_along(p, along);
-  if (is_straight(p, along, total)) bow(p, along, bend, total);
+  if (is_straight(p, along, total)) bow(p, bend, total);
   for (int i = 0; i < iterations; ++i) {
     backward(p, goal, along);
     forward(p, root, along);
   }
+  if (p.count > 2) stretch(p, goal, along, total);
   for (int i = 0; i < kClosings && p.count > 2; ++i) close(p, goal, most_bent(p));
 }
 

@@ -30,8 +30,7 @@ math::Vec3 across(math::Vec3 v, math::Vec3 axis);
 math::Vec3 bend_of(const Points& points, math::Vec3 along);
 
 /// Moves all points but the first so that the last is at the goal; exactly straight where it is out
-/// of reach. A straight chain that must bend bends toward `bend`, or where that is zero to any
-/// side.
+/// of reach. A straight chain that must bend bends toward unit vector `bend`.
 void reach(Points& points, math::Vec3 goal, math::Vec3 bend, int iterations);
 
 }  // namespace rigc::eval::chain
