@@ -28,11 +28,14 @@ struct Chain {
 
     chain::Points p = rest;
     for (int i = 1; i < p.count; ++i) p.at[i] = p.at[0] + rotate(turn, rest.at[i] - rest.at[0]);
-    Vec3 side;
+    // To one side of the rest, which turns with it: so it does not jump as the goal moves.
+    const Vec3 rest_along = chain::direction(rest, rest.at[rest.count - 1] - rest.at[0]);
+    Vec3 side = rotate(turn, generic::perpendicular(rest_along));
     if (has_pole) {
       const Vec3 along = generic::normalised(goal - p.at[0], chain::x_axis());
-      side =
+      const Vec3 toward_pole =
           rotate(generic::axis_angle(along, twist), chain::across(pole - p.at[0], goal - p.at[0]));
+      side = select(generic::is_zero(toward_pole), side, toward_pole);
     }
     chain::reach(p, goal, side, static_cast<int>(d[kIterations]));
     put_rotations(lanes, p, turn);

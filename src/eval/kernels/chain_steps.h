@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The geometry of chain IK: points with fixed distances that shall reach a goal. FABRIK, and a last
-// closed-form step: what the iterations left open is closed by bending the chain at its most bent
-// joint, so that a goal in reach is reached exactly. Test: tests/eval/chain_test.cpp
+// The geometry of chain IK: points with fixed distances that shall reach a goal. FABRIK, and two
+// last steps. First all bends of the chain are scaled alike until its end is as far away as the
+// goal: that is smooth, also through full extension, where the iterations converge slowly. What is
+// left, in chains that are folded up, is closed by bending the most bent joint.
+// Test: tests/eval/chain_test.cpp
 #pragma once
 
 #include "eval/kernels/lanes.h"
@@ -16,6 +18,9 @@ constexpr double kBent = 1e-6;
 // How far a straight chain is bowed before the iterations, which cannot leave a line by themselves.
 constexpr double kBow = 0.1;
 constexpr int kClosings = 4;
+// Steps of Newton's method for the scale of the bends, and how large its square may become.
+constexpr int kSteps = 12;
+constexpr double kMostBend = 16;
 
 // A function: a constant would be made by this instruction set when the program starts.
 RIGC_INLINE Vec3 x_axis() { return {Real(1.0), Real(0.0), Real(0.0)}; }
@@ -76,6 +81,84 @@ RIGC_INLINE void iterate(Points& p, Vec3 goal, Vec3 along) {
     p.at[i + 1] = pulled(p.at[i], p.at[i + 1], p.lengths[i], along);
 }
 
+/// A bone seen from the line from root to end: its part along it, and beside it. With the tangent
+/// of half its angle to the line scaled by s it is line * (q^2 - s^2 b^2) + beside * 2 s q, divided
+/// by q^2 + s^2 b^2, where q = 1 + along and b = |beside|.
+struct Lean {
+  Vec3 beside;
+  Real q, bb;
+};
+
+RIGC_INLINE Lean lean_of(const Points& p, int bone, Vec3 line) {
+  const Vec3 along = generic::normalised(p.at[bone + 1] - p.at[bone], line);
+  const Real x = dot(along, line);
+  const Vec3 beside = along - line * x;
+  return {beside, 1.0 + x, dot(beside, beside)};
+}
+
+RIGC_INLINE Vec3 leaning(const Lean& bone, Vec3 line, Real scale) {
+  const Real qq = bone.q * bone.q, sbb = scale * scale * bone.bb;
+  const auto plain = qq + sbb > 0.0;
+  const Real per = 1.0 / select(plain, qq + sbb, Real(1.0));
+  const Vec3 found = (line * (qq - sbb) + bone.beside * (2.0 * scale * bone.q)) * per;
+  return select(plain, found, -line);
+}
+
+/// Its derivative by the square of the scale.
+RIGC_INLINE Vec3 rate_of(const Lean& bone, Vec3 line, Real scale) {
+  const Real qq = bone.q * bone.q, sbb = scale * scale * bone.bb;
+  const auto plain = qq + sbb > 0.0;
+  const Real sum = select(plain, qq + sbb, Real(1.0));
+  const Real per = 1.0 / (sum * sum);
+  const Vec3 found =
+      line * (-2.0 * qq * bone.bb * per) + bone.beside * (bone.q * (qq - sbb) / scale * per);
+  return select(plain, found, Vec3{});
+}
+
+/// The square of the scale of all bends that brings the end as far from the root as `wanted`, by
+/// Newton's method: a nearly straight chain is linear in it.
+RIGC_INLINE Real bend_scale(const Points& p, const Lean* bones, Vec3 line, Real squared,
+                            Real wanted) {
+  for (int k = 0; k < kSteps; ++k) {
+    const Real scale = generic::sqrt(squared);
+    Vec3 end, rate;
+    for (int i = 0; i + 1 < p.count; ++i) {
+      end = end + leaning(bones[i], line, scale) * p.lengths[i];
+      rate = rate + rate_of(bones[i], line, scale) * p.lengths[i];
+    }
+    const Real miss = dot(end, end) - wanted * wanted;
+    const Real slope = 2.0 * dot(end, rate);
+    const auto falls = slope < 0.0;
+    const Real next = select(falls, squared - miss / select(falls, slope, Real(1.0)), squared);
+    const Real least = squared * 0x1p-10;
+    squared = select(next < least, least, select(next > kMostBend, Real(kMostBend), next));
+  }
+  return squared;
+}
+
+/// Scales the bends of all joints until the end is as far from the root as the goal is, and turns
+/// the chain to the goal.
+RIGC_INLINE void stretch(Points& p, Vec3 goal, Vec3 along, Real total) {
+  const Vec3 root = p.at[0];
+  const Real wanted = generic::length(goal - root);
+  const Real reached = generic::length(p.at[p.count - 1] - root);
+  const Vec3 line = generic::normalised(p.at[p.count - 1] - root, along);
+  Lean bones[kMaxChainJoints];
+  for (int i = 0; i + 1 < p.count; ++i) bones[i] = lean_of(p, i, line);
+  // Exact where all angles are small.
+  const Real given = total - reached;
+  const auto bent = given > 1e-15 * total;
+  Real squared = select(bent, (total - wanted) / select(bent, given, Real(1.0)), Real(1.0));
+  squared = select(squared > kMostBend, Real(kMostBend), squared);
+  squared = bend_scale(p, bones, line, squared, wanted);
+  const Real scale = generic::sqrt(squared);
+  for (int i = 0; i + 1 < p.count; ++i)
+    p.at[i + 1] = p.at[i] + leaning(bones[i], line, scale) * p.lengths[i];
+  const Vec3 now = generic::normalised(p.at[p.count - 1] - root, along);
+  const Quat turn = generic::between(now, generic::normalised(goal - root, now));
+  for (int i = 1; i < p.count; ++i) p.at[i] = root + rotate(turn, p.at[i] - root);
+}
+
 /// The joint that lies farthest beside the way from root to end, and where it is.
 struct MostBent {
   Real index;
@@ -134,20 +217,18 @@ RIGC_INLINE Mask is_straight(const Points& p, Vec3 along, Real total) {
   return most <= kBent * total;
 }
 
-RIGC_INLINE void bow(Points& p, Mask which, Vec3 along, Vec3 bend, Real total) {
-  const Vec3 side = select(generic::is_zero(bend), generic::perpendicular(along), bend);
+RIGC_INLINE void bow(Points& p, Mask which, Vec3 bend, Real total) {
   Real passed{};
   for (int i = 1; i + 1 < p.count; ++i) {
     passed = passed + p.lengths[i - 1];
     const Real s = passed / total;
-    const Vec3 bowed = p.at[i] + side * (kBow * total * 4.0 * s * (1.0 - s));
+    const Vec3 bowed = p.at[i] + bend * (kBow * total * 4.0 * s * (1.0 - s));
     p.at[i] = select(which, bowed, p.at[i]);
   }
 }
 
 /// Moves all points but the first so that the last is at the goal; exactly straight where it is out
-/// of reach. A straight chain that must bend bends toward `bend`, or where that is zero to any
-/// side.
+/// of reach. A straight chain that must bend bends toward unit vector `bend`.
 RIGC_INLINE void reach(Points& p, Vec3 goal, Vec3 bend, int iterations) {
   const Real total = total_length(p);
   const Vec3 root = p.at[0];
@@ -157,8 +238,9 @@ RIGC_INLINE void reach(Points& p, Vec3 goal, Vec3 bend, int iterations) {
   const auto in_reach = !out;
   if (any(in_reach)) {
     const Mask straight = is_straight(p, along, total);
-    if (any(straight)) bow(p, straight, along, bend, total);
+    if (any(straight)) bow(p, straight, bend, total);
     for (int i = 0; i < iterations; ++i) iterate(p, goal, along);
+    if (p.count > 2) stretch(p, goal, along, total);
     for (int i = 0; i < kClosings && p.count > 2; ++i) close(p, goal);
   }
   Vec3 stretched = root;

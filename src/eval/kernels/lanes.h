@@ -117,11 +117,16 @@ RIGC_INLINE Affine affine_at(const double* d) {
   return {{vec3_at(d), vec3_at(d + 3), vec3_at(d + 6)}, vec3_at(d + 9)};
 }
 
+/// Shorter than 1e-30: products with its inverse could overflow.
+RIGC_INLINE Mask is_lost(const Vec3& column) { return dot(column, column) < 1e-60; }
+
 /// From rig space into the space of `parent`; where the parent is flat, into that of its rotation
 /// alone.
 RIGC_INLINE Affine into(const Affine& parent) {
   Affine inverse = generic::inverse(parent);
-  const auto flat = generic::is_zero(inverse.linear.x) & generic::is_zero(inverse.linear.y);
+  const Mat3& m = parent.linear;
+  const auto singular = generic::is_zero(inverse.linear.x) & generic::is_zero(inverse.linear.y);
+  const auto flat = singular | is_lost(m.x) | is_lost(m.y) | is_lost(m.z);
   if (any(flat)) {
     const Affine rotation{generic::orthonormal(parent.linear), parent.origin};
     const Affine rigid = generic::inverse(rotation);

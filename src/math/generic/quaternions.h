@@ -7,7 +7,7 @@
 
 namespace rigc::math::generic {
 
-/// Unit length, identity where `q` is shorter than 1e-30.
+/// Unit length, identity where `q` is shorter than 1e-30 or not finite.
 template <class R>
 RIGC_INLINE QuatOf<R> normalised(QuatOf<R> q) {
   R squares = dot(q, q);
@@ -17,7 +17,7 @@ RIGC_INLINE QuatOf<R> normalised(QuatOf<R> q) {
     q = {q.x * down, q.y * down, q.z * down, q.w * down};
     squares = dot(q, q);
   }
-  const auto found = squares > 1e-60;
+  const auto found = (squares > 1e-60) & (squares < 1e300);
   const R size = root(select(found, squares, R(1.0)));
   const QuatOf<R> unit{q.x / size, q.y / size, q.z / size, q.w / size};
   return any(!found) ? select(found, unit, QuatOf<R>{}) : unit;

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// A valid instruction for every operation of the table of kernels: the types of its arguments, its
+// table of data, the width of its result. Formulas need no row of their own here; a new solver
+// does, and the tests say so. Test: tests/eval/hostile_test.cpp
+#pragma once
+
+#include "eval/kernels/limit.h"
+#include "tests/eval/kernel_runner.h"
+
+namespace rigc::test {
+
+struct Job {
+  eval::Op op;
+  std::vector<scene::Type> arguments;
+  Numbers data;
+  std::uint32_t width = 0;
+};
+
+inline bool is_formula(eval::Op op) { return op >= eval::Op::negate; }
+
+/// Where the numbers of a job come from.
+class Source {
+ public:
+  explicit Source(Random& random) : random_(random) {}
+  virtual ~Source() = default;
+  virtual double number() = 0;
+  Random& random() { return random_; }
+
+  math::Vec3 vector() {
+    const double x = number(), y = number(), z = number();
+    return {x, y, z};
+  }
+  virtual math::Quat rotation() {
+    const double x = number(), y = number(), z = number(), w = number();
+    return {x, y, z, w};
+  }
+  virtual math::Affine matrix() {
+    const math::Vec3 x = vector(), y = vector(), z = vector(), origin = vector();
+    return {{x, y, z}, origin};
+  }
+  scene::Value value(scene::Type type) {
+    switch (type) {
+      case scene::Type::number:
+        return number();
+      case scene::Type::vec3:
+        return vector();
+      case scene::Type::quat:
+        return rotation();
+      default:
+        REQUIRE(type == scene::Type::matrix);
+        return matrix();
+    }
+  }
+  Arguments arguments(const Job& job) {
+    Arguments values;
+    for (const scene::Type type : job.arguments) values.push_back(value(type));
+    return values;
+  }
+
+ private:
+  Random& random_;
+};
+
+inline void append(Numbers& data, const scene::Value& value) {
+  const Numbers numbers = eval::numbers_of(value);
+  data.insert(data.end(), numbers.begin(), numbers.end());
+}
+
+/// Bounds as the compiler lets them through: the least not above the largest.
+inline math::LimitSpace random_limits(Source& source, double size) {
+  Random& random = source.random();
+  math::LimitSpace space;
+  space.axes = random.rotation();
+  space.rest = random.rotation();
+  space.origin = random.vector(size);
+  const std::size_t first = random.below(3), step = 1 + random.below(2);
+  for (std::size_t i = 0; i < 3; ++i) {
+    space.order[i] = static_cast<int>((first + i * step) % 3);
+    const double a = random.between(-size, size), b = random.between(-size, size);
+    if (random.chance(60)) space.min[i] = std::fmin(a, b);
+    if (random.chance(60)) space.max[i] = std::fmax(a, b);
+    if (random.chance(10)) space.min[i] = space.max[i] = a;
+  }
+  return space;
+}
+
+/// Points of a curve: position, value, interpolation, tangent; positions rise.
+inline Numbers random_curve(Source& source) {
+  Random& random = source.random();
+  Numbers data{static_cast<double>(random.below(2)), static_cast<double>(random.below(6))};
+  double position = random.between(-1, 1);
+  for (double i = 0; i < data[1]; ++i) {
+    data.push_back(position);
+    data.push_back(random.between(-2, 2));
+    data.push_back(static_cast<double>(random.below(4)));
+    data.push_back(random.chance(30) ? 0 : random.between(-3, 3));
+    position += random.chance(20) ? 1e-9 : random.between(0.05, 0.6);
+  }
+  return data;
+}
+
+inline Job constraint_job(Source& source) {
+  using scene::Type;
+  const std::size_t count = 1 + source.random().below(4);
+  Job job{eval::Op::constraint, {Type::matrix}, {}, 10};
+  job.data = {static_cast<double>(count), static_cast<double>(source.random().below(2))};
+  for (std::size_t i = 0; i < count; ++i) {
+    job.arguments.insert(job.arguments.end(), {Type::matrix, Type::number});
+    append(job.data, source.matrix());
+  }
+  return job;
+}
+
+inline Job aim_job(Source& source) {
+  using scene::Type;
+  const std::size_t count = 1 + source.random().below(4);
+  Job job{eval::Op::aim, {Type::matrix, Type::vec3, Type::matrix, Type::vec3}, {}, 4};
+  job.data = {static_cast<double>(count), static_cast<double>(source.random().below(3))};
+  append(job.data, source.random().rotation());
+  for (std::size_t i = 0; i < count; ++i)
+    job.arguments.insert(job.arguments.end(), {Type::matrix, Type::number});
+  return job;
+}
+
+inline Job two_bone_job(Source& source) {
+  using scene::Type;
+  Job job{eval::Op::ik_two_bone, {Type::matrix, Type::matrix, Type::matrix, Type::number}, {}, 24};
+  job.arguments.insert(job.arguments.end(), 5, Type::vec3);
+  append(job.data, source.vector());
+  append(job.data, source.random().rotation());
+  append(job.data, source.random().rotation());
+  append(job.data, source.vector());
+  return job;
+}
+
+inline Job chain_job(Source& source) {
+  using scene::Type;
+  const std::size_t count = 2 + source.random().below(6);
+  Job job{eval::Op::ik_chain, {Type::matrix, Type::matrix, Type::matrix, Type::number}, {}, 0};
+  job.arguments.insert(job.arguments.end(), count, Type::vec3);
+  job.data = {static_cast<double>(count), static_cast<double>(source.random().below(2)),
+              static_cast<double>(source.random().below(12))};
+  append(job.data, source.vector());
+  for (std::size_t i = 0; i < count; ++i) append(job.data, source.random().rotation());
+  job.width = static_cast<std::uint32_t>(4 * (count - 1));
+  return job;
+}
+
+/// An instruction as the compiler emits it. Rests and offsets that are rotations are at unit
+/// length, as there; what else comes from a scene comes from the source.
+inline Job job_of(eval::Op op, Source& source) {
+  using eval::Op;
+  using scene::Type;
+  switch (op) {
+    case Op::compose:
+      return {op, {Type::vec3, Type::quat, Type::vec3}, {}, 12};
+    case Op::multiply:
+      return {op, {Type::matrix, Type::matrix}, {}, 12};
+    case Op::gather:
+      return {op, {Type::number, Type::vec3, Type::number}, {}, 5};
+    case Op::from_euler:
+      return {op, {Type::vec3}, {}, 4};
+    case Op::to_euler:
+      return {op, {Type::quat}, {}, 3};
+    case Op::constraint:
+      return constraint_job(source);
+    case Op::aim:
+      return aim_job(source);
+    case Op::ik_two_bone:
+      return two_bone_job(source);
+    case Op::ik_chain:
+      return chain_job(source);
+    case Op::limit_vector:
+      return {op, {Type::vec3}, eval::limit_data(random_limits(source, 3)), 3};
+    case Op::limit_rotation:
+      return {op, {Type::quat}, eval::limit_data(random_limits(source, 200)), 4};
+    case Op::remap:
+      return {op, std::vector<Type>(5, Type::number), random_curve(source), 1};
+    default:
+      break;
+  }
+  REQUIRE_MESSAGE(is_formula(op), "a new solver needs a row here: " << eval::row(op).name);
+  const auto count = static_cast<std::size_t>(eval::row(op).arguments);
+  return {op, std::vector<Type>(count, Type::number), {}, 1};
+}
+
+/// Calls `f` with every operation of the table.
+template <class F>
+void for_every_op(F f) {
+  for (int op = 0; op < static_cast<int>(eval::Op::count); ++op) f(static_cast<eval::Op>(op));
+}
+
+}  // namespace rigc::test
