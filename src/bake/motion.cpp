@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "base/trace.h"
 #include "eval/evaluate.h"
+#include "eval/rows.h"
 
 namespace rigc::bake {
 

@@ -4,7 +4,7 @@
 // does, and the tests say so. Test: tests/eval/hostile_test.cpp
 #pragma once
 
-#include "eval/kernels/limit.h"
+#include "eval/limits.h"
 #include "tests/eval/kernel_runner.h"
 
 namespace rigc::test {
@@ -14,9 +14,16 @@ struct Job {
   std::vector<scene::Type> arguments;
   Numbers data;
   std::uint32_t width = 0;
+  /// Not 0: matrices among the arguments are rotations times this, with an origin.
+  double even = 0;
 };
 
 inline bool is_formula(eval::Op op) { return op >= eval::Op::negate; }
+
+inline math::Mat3 even_linear(Random& random, double even) {
+  const math::Mat3 m = math::matrix(random.rotation());
+  return {m.x * even, m.y * even, m.z * even};
+}
 
 /// Where the numbers of a job come from.
 class Source {
@@ -38,7 +45,7 @@ class Source {
     const math::Vec3 x = vector(), y = vector(), z = vector(), origin = vector();
     return {{x, y, z}, origin};
   }
-  scene::Value value(scene::Type type) {
+  scene::Value value(scene::Type type, double even = 0) {
     switch (type) {
       case scene::Type::number:
         return number();
@@ -48,16 +55,22 @@ class Source {
         return rotation();
       default:
         REQUIRE(type == scene::Type::matrix);
-        return matrix();
+        return even == 0 ? matrix() : even_matrix(even);
     }
   }
   Arguments arguments(const Job& job) {
     Arguments values;
-    for (const scene::Type type : job.arguments) values.push_back(value(type));
+    for (const scene::Type type : job.arguments) values.push_back(value(type, job.even));
     return values;
   }
 
  private:
+  math::Affine even_matrix(double even) {
+    math::Affine a = matrix();
+    a.linear = even_linear(random_, even);
+    return a;
+  }
+
   Random& random_;
 };
 
@@ -111,12 +124,35 @@ inline Job constraint_job(Source& source) {
   return job;
 }
 
-inline Job aim_job(Source& source) {
+inline void append(Numbers& data, const math::Mat3& m) {
+  for (const math::Vec3& column : {m.x, m.y, m.z})
+    data.insert(data.end(), {column.x, column.y, column.z});
+}
+
+/// Rotations times a factor, which the offsets take back.
+inline Job blend_job(Source& source) {
   using scene::Type;
   const std::size_t count = 1 + source.random().below(4);
-  Job job{eval::Op::aim, {Type::matrix, Type::vec3, Type::matrix, Type::vec3}, {}, 4};
+  Job job{eval::Op::blend, {}, {static_cast<double>(count)}, 12, source.random().between(0.1, 10)};
+  for (std::size_t i = 0; i < count; ++i) {
+    job.arguments.insert(job.arguments.end(), {Type::matrix, Type::number});
+    append(job.data, even_linear(source.random(), 1 / job.even));
+    append(job.data, source.vector());
+  }
+  return job;
+}
+
+inline Job aim_job(eval::Op op, Source& source) {
+  using scene::Type;
+  const std::size_t count = 1 + source.random().below(4);
+  Job job{op, {Type::matrix, Type::vec3, Type::matrix, Type::vec3}, {}, 4};
   job.data = {static_cast<double>(count), static_cast<double>(source.random().below(3))};
-  append(job.data, source.random().rotation());
+  if (op == eval::Op::aim) {
+    append(job.data, source.random().rotation());
+  } else {
+    append(job.data, source.matrix().linear);
+    job.width = 12;
+  }
   for (std::size_t i = 0; i < count; ++i)
     job.arguments.insert(job.arguments.end(), {Type::matrix, Type::number});
   return job;
@@ -124,11 +160,32 @@ inline Job aim_job(Source& source) {
 
 inline Job two_bone_job(Source& source) {
   using scene::Type;
-  Job job{eval::Op::ik_two_bone, {Type::matrix, Type::matrix, Type::matrix, Type::number}, {}, 24};
+  // Of the limb's plane alone, or of its joints too.
+  const Type twist = source.random().chance(50) ? Type::number : Type::vec3;
+  Job job{eval::Op::ik_two_bone, {Type::matrix, Type::matrix, Type::matrix, twist}, {}, 24};
   job.arguments.insert(job.arguments.end(), 5, Type::vec3);
   append(job.data, source.vector());
   append(job.data, source.random().rotation());
   append(job.data, source.random().rotation());
+  append(job.data, source.vector());
+  return job;
+}
+
+inline Job compose_under_job(Source& source) {
+  Job job{eval::Op::compose_under, {scene::Type::vec3, scene::Type::quat}, {}, 12};
+  append(job.data, source.vector());
+  append(job.data, source.random().rotation());
+  return job;
+}
+
+inline Job hang_job(Source& source) {
+  Job job{eval::Op::hang, {scene::Type::matrix, scene::Type::matrix}, {}, 12};
+  append(job.data, source.matrix());
+  return job;
+}
+
+inline Job hang_straight_job(Source& source) {
+  Job job{eval::Op::hang_straight, {scene::Type::matrix, scene::Type::matrix}, {}, 12};
   append(job.data, source.vector());
   return job;
 }
@@ -154,6 +211,16 @@ inline Job job_of(eval::Op op, Source& source) {
   switch (op) {
     case Op::compose:
       return {op, {Type::vec3, Type::quat, Type::vec3}, {}, 12};
+    case Op::compose_rigid:
+      return {op, {Type::vec3, Type::quat}, {}, 12};
+    case Op::compose_under:
+      return compose_under_job(source);
+    case Op::hang:
+      return hang_job(source);
+    case Op::hang_straight:
+      return hang_straight_job(source);
+    case Op::place:
+      return {op, {Type::matrix, Type::matrix, Type::vec3}, {}, 12};
     case Op::multiply:
       return {op, {Type::matrix, Type::matrix}, {}, 12};
     case Op::gather:
@@ -165,7 +232,10 @@ inline Job job_of(eval::Op op, Source& source) {
     case Op::constraint:
       return constraint_job(source);
     case Op::aim:
-      return aim_job(source);
+    case Op::aim_world:
+      return aim_job(op, source);
+    case Op::blend:
+      return blend_job(source);
     case Op::ik_two_bone:
       return two_bone_job(source);
     case Op::ik_chain:

@@ -20,7 +20,7 @@ using Arguments = std::vector<scene::Value>;
 
 /// What the kernel gives for each lane, `width` numbers each. Every lane has its own arguments
 /// (kLanes of them).
-inline std::vector<Numbers> run_kernel(eval::Op op, const std::vector<Arguments>& lanes,
+inline std::vector<Numbers> run_kernel(eval::Kernel kernel, const std::vector<Arguments>& lanes,
                                        const Numbers& data, std::uint32_t width) {
   std::vector<eval::Register> places;
   Numbers registers;
@@ -37,8 +37,8 @@ inline std::vector<Numbers> run_kernel(eval::Op op, const std::vector<Arguments>
   const eval::Register out{static_cast<std::uint32_t>(registers.size() / eval::kLanes), width};
   const double nothing = 12345.678;
   registers.resize(registers.size() + static_cast<std::size_t>(width + 1) * eval::kLanes, nothing);
-  eval::row(op).kernel({registers.data(), out, places.data(),
-                        static_cast<std::uint32_t>(places.size()), data.data()});
+  kernel({registers.data(), out, places.data(), static_cast<std::uint32_t>(places.size()),
+          data.data()});
   for (int lane = 0; lane < eval::kLanes; ++lane) {
     REQUIRE(registers[static_cast<std::size_t>(out.row + width) * eval::kLanes +
                       static_cast<std::size_t>(lane)] == nothing);
@@ -50,6 +50,11 @@ inline std::vector<Numbers> run_kernel(eval::Op op, const std::vector<Arguments>
       results.back().push_back(registers[(out.row + r) * eval::kLanes + lane]);
   }
   return results;
+}
+
+inline std::vector<Numbers> run_kernel(eval::Op op, const std::vector<Arguments>& lanes,
+                                       const Numbers& data, std::uint32_t width) {
+  return run_kernel(eval::row(op).kernel, lanes, data, width);
 }
 
 /// The same for one set of arguments.

@@ -16,6 +16,44 @@ inline Result compose(const Arguments& a, const Numbers&) {
   return out;
 }
 
+inline Result compose_rigid(const Arguments& a, const Numbers&) {
+  Result out;
+  out.parts = {A(turn(std::get<math::Quat>(a[1])), vector_at(a, 0))};
+  return out;
+}
+
+inline Result compose_under(const Arguments& a, const Numbers& d) {
+  const M above = turn(quat_at(d, 3));
+  Result out;
+  out.parts = {
+      A(above * turn(std::get<math::Quat>(a[1])), above * vector_at(a, 0) + vec3_at(d, 0))};
+  out.size = length(vector_at(a, 0)) + length(vec3_at(d, 0));
+  return out;
+}
+
+/// `own` by the linear part of one matrix, its origin by another.
+inline Result hung(const A& parent, const A& turned, const A& own) {
+  Result out;
+  out.parts = {A(turned.linear * own.linear, parent * own.origin)};
+  out.condition = condition_of(turned.linear);
+  Real most = 0;
+  for (std::size_t i = 0; i < 3; ++i) most = fmaxl(most, length(parent.linear[i]));
+  out.size = most * length(own.origin) + length(parent.origin);
+  return out;
+}
+
+inline Result hang(const Arguments& a, const Numbers& d) {
+  return hung(matrix_at(a, 0), matrix_at(a, 1), {matrix_at(d, 0), vec3_at(d, 9)});
+}
+
+inline Result hang_straight(const Arguments& a, const Numbers& d) {
+  return hung(matrix_at(a, 0), matrix_at(a, 1), {M{}, vec3_at(d, 0)});
+}
+
+inline Result place(const Arguments& a, const Numbers&) {
+  return hung(matrix_at(a, 0), matrix_at(a, 1), {M{}, vector_at(a, 2)});
+}
+
 inline Result multiply(const Arguments& a, const Numbers&) {
   const A left = matrix_at(a, 0), right = matrix_at(a, 1);
   Result out;
@@ -191,6 +229,20 @@ inline Result twin_of(eval::Op op, const Arguments& a, const Numbers& d) {
   switch (op) {
     case Op::compose:
       return compose(a, d);
+    case Op::compose_rigid:
+      return compose_rigid(a, d);
+    case Op::compose_under:
+      return compose_under(a, d);
+    case Op::hang:
+      return hang(a, d);
+    case Op::hang_straight:
+      return hang_straight(a, d);
+    case Op::place:
+      return place(a, d);
+    case Op::blend:
+      return blend(a, d);
+    case Op::aim_world:
+      return aim_world(a, d);
     case Op::multiply:
       return multiply(a, d);
     case Op::gather:

@@ -83,7 +83,9 @@ inline Result two_bone(const Arguments& a, const Numbers& d) {
   const V rest_normal = beside(base_turn * unit(vec3_at(d, 11)), along);
   const bool has_plane = length(aside) >= 1e-6L;
   V normal = unit(has_plane ? cross(along, aside) : rest_normal);
-  normal = turn(along, number_at(a, 3) * kDegree) * normal;
+  const bool turns_joints = std::holds_alternative<math::Vec3>(a[3]);
+  const V twist = turns_joints ? vector_at(a, 3) : V{number_at(a, 3), 0, 0};
+  normal = turn(along, twist.x * kDegree) * normal;
   // The law of cosines at the root; a goal out of reach is where the limb can get.
   const Real shortest_reach = fabsl(first - second), longest_reach = first + second;
   const Real reach = std::clamp(distance, shortest_reach, longest_reach);
@@ -102,7 +104,8 @@ inline Result two_bone(const Arguments& a, const Numbers& d) {
   for (std::size_t i = 0; i < 2; ++i) {
     const M offset = turn(quat_at(d, 3 + 4 * i));
     const V seen = offset * unit(times_each(children[i], mirror));
-    const M turned = M(bones[i], cross(normal, bones[i]), normal) * shortest(seen, {1, 0, 0});
+    const V z = turn(bones[i], twist[i + 1] * kDegree) * normal;
+    const M turned = M(bones[i], cross(z, bones[i]), z) * shortest(seen, {1, 0, 0});
     out.parts.push_back(A(scaled(turned * offset, totals[i]), starts[i]));
   }
   const Real limb = first + second;
@@ -116,13 +119,18 @@ inline Result two_bone(const Arguments& a, const Numbers& d) {
   return out;
 }
 
-inline Result aim(const Arguments& a, const Numbers& d) {
+/// The frame that aims, and where it is.
+struct Aiming {
+  A parent, world;
+  Real size = 1, condition = 1;
+};
+inline Aiming aiming(const Arguments& a, const Numbers& d) {
   const auto count = static_cast<std::size_t>(d[0]);
   const A parent = matrix_at(a, 0), up_target = matrix_at(a, 2);
   const V position = parent * vector_at(a, 1), up = vector_at(a, 3);
   const std::vector<Real> share = shares(a, 5, count);
   V mean;
-  Result out;
+  Aiming out;
   out.size = length(position);
   for (std::size_t i = 0; i < count; ++i) {
     const V at = matrix_at(a, 4 + 2 * i).origin;
@@ -133,12 +141,75 @@ inline Result aim(const Arguments& a, const Numbers& d) {
   V upward = up;
   if (d[1] == 1) upward = up_target.origin - position;
   if (d[1] == 2) upward = orthonormal(up_target.linear) * up;
-  const M world = frame(toward, upward) * turn(quat_at(d, 2));
-  out.parts = {orthonormal(into(parent).linear * world)};
+  out.parent = parent;
+  out.world = {frame(toward, upward), position};
   out.condition = out.size / length(mean - position) / length(beside(unit(upward), toward)) *
-                  condition_of(parent.linear) * condition_of(parent.linear);
+                  condition_of(parent.linear);
   if (d[1] == 1) out.condition *= fmaxl(out.size / length(upward), 1);
   if (d[1] == 2) out.condition *= condition_of(up_target.linear);
+  return out;
+}
+
+inline Result aim(const Arguments& a, const Numbers& d) {
+  const Aiming found = aiming(a, d);
+  const M turned = found.world.linear * turn(quat_at(d, 2));
+  Result out;
+  out.parts = {orthonormal(into(found.parent).linear * turned)};
+  out.size = found.size;
+  out.condition = found.condition * condition_of(found.parent.linear);
+  return out;
+}
+
+inline M matrix_at(const Numbers& d, std::size_t i) {
+  return {vec3_at(d, i), vec3_at(d, i + 3), vec3_at(d, i + 6)};
+}
+
+inline Result aim_world(const Arguments& a, const Numbers& d) {
+  const Aiming found = aiming(a, d);
+  Result out;
+  out.parts = {A(found.world.linear * matrix_at(d, 2), found.world.origin)};
+  out.size = found.size;
+  out.condition = found.condition;
+  return out;
+}
+
+/// The mean rotation of what has been added so far: by the shorter way to the next, as far as its
+/// share of all so far.
+struct MeanTurn {
+  M turned;
+  Real so_far = 0;
+  Real condition = 1;  ///< grows toward half turns, where the shorter way jumps
+  bool certain = true;
+  void add(const M& next, Real share) {
+    so_far += share;
+    const Turn way = axis_angle(next * transposed(turned));
+    if (so_far == share) {
+      turned = next;
+      return;
+    }
+    condition = fmaxl(condition, 2 / (kPi - way.angle));
+    certain = certain && way.angle < kPi - 1e-3L;
+    turned = turn(way.axis, way.angle * share / so_far) * turned;
+  }
+};
+
+inline Result blend(const Arguments& a, const Numbers& d) {
+  const auto count = static_cast<std::size_t>(d[0]);
+  const std::vector<Real> share = shares(a, 1, count);
+  Result out;
+  V place;
+  MeanTurn mean;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (share[i] == 0) continue;
+    const A target = matrix_at(a, 2 * i);
+    const V own = vec3_at(d, 10 + 12 * i), at = target * own;
+    place = place + at * share[i];
+    mean.add(target.linear * matrix_at(d, 1 + 12 * i), share[i]);
+    out.size = fmaxl(out.size, length(target.linear.x) * length(own) + length(target.origin));
+  }
+  out.certain = mean.certain;
+  out.condition = mean.condition;
+  out.parts = {A(mean.turned, place)};
   return out;
 }
 
@@ -149,8 +220,7 @@ inline Result constraint(const Arguments& a, const Numbers& d) {
   Result out;
   out.size = length(to_parent.origin);
   V place, scale;
-  M rotation;
-  Real so_far = 0;
+  MeanTurn mean;
   for (std::size_t i = 0; i < count; ++i) {
     if (share[i] == 0) continue;
     const A offset = math::Affine{{{d[2 + 12 * i], d[3 + 12 * i], d[4 + 12 * i]},
@@ -161,21 +231,14 @@ inline Result constraint(const Arguments& a, const Numbers& d) {
     if (d[1] != 0) local = {M{}, to_parent * V(matrix_at(a, 1 + 2 * i).origin) + offset.origin};
     const M turned = orthonormal(local.linear);
     const V scaled = scales(turned, local.linear);
-    so_far += share[i];
     place = place + local.origin * share[i];
     scale = scale + scaled * share[i];
     out.size = fmaxl(out.size, fmaxl(length(local.origin), length(scaled)));
     out.condition = fmaxl(out.condition, condition_of(local.linear));
-    // By the shorter way to the next, as far as its share of all so far.
-    const Turn way = axis_angle(turned * transposed(rotation));
-    if (so_far == share[i]) {
-      rotation = turned;
-    } else {
-      out.certain = out.certain && way.angle < kPi - 1e-3L;
-      rotation = turn(way.axis, way.angle * share[i] / so_far) * rotation;
-    }
+    mean.add(turned, share[i]);
   }
-  out.parts = {place, rotation, scale};
+  out.certain = mean.certain;
+  out.parts = {place, mean.turned, scale};
   out.condition *= condition_of(A(matrix_at(a, 0)).linear);
   return out;
 }

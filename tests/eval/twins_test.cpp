@@ -3,7 +3,7 @@
 // twin_solvers.h), for characters of every size and far from the origin.
 #include <doctest/doctest.h>
 
-#include "tests/eval/bounds.h"
+#include "eval/kernels/bounds.h"
 #include "tests/eval/twin_formulas.h"
 
 namespace rigc {
@@ -84,7 +84,7 @@ TEST_CASE("eval twins: every kernel is within its bound of its twin") {
     test::for_every_op([&](Op op) {
       if (test::is_formula(op) && &world != kWorlds) return;
       const double worst = worst_error(op, world);
-      CHECK_MESSAGE(worst <= test::bound(op).error, eval::row(op).name, ": ", worst);
+      CHECK_MESSAGE(worst <= eval::bound(op).error, eval::row(op).name, ": ", worst);
     });
   }
 }
@@ -108,7 +108,7 @@ TEST_CASE("eval twins: formulas on numbers of every size") {
       if (fabsl(std::get<Real>(want.parts[0])) > 1e307L) continue;
       worst = fmaxl(worst, exact::error_of(want, test::run_kernel_once(op, a, {}, 1)));
     }
-    CHECK_MESSAGE(static_cast<double>(worst) * 0x1p52 <= test::bound(op).error, eval::row(op).name,
+    CHECK_MESSAGE(static_cast<double>(worst) * 0x1p52 <= eval::bound(op).error, eval::row(op).name,
                   ": ", static_cast<double>(worst) * 0x1p52);
   });
 }
