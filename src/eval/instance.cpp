@@ -24,11 +24,13 @@ const double* Instance::output(std::size_t index) const {
 }
 
 void Instance::run() {
-  for (const Instruction& i : program_.instructions) {
-    row(i.op, isa_)
-        .kernel({registers_.data(), i.out, program_.arguments.data() + i.first_argument,
-                 i.argument_count, program_.data.data() + i.data});
-  }
+  const KernelRow* const kernels = &row(Op{}, isa_);
+  const Register* const arguments = program_.arguments.data();
+  const double* const data = program_.data.data();
+  for (const Instruction& i : program_.instructions)
+    kernels[static_cast<std::size_t>(i.op)].kernel({registers_.data(), i.out,
+                                                    arguments + i.first_argument, i.argument_count,
+                                                    data + i.data});
 }
 
 }  // namespace rigc::eval
