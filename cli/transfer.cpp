@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/timing.h"
 #include "pipeline/transfer.h"
 
 namespace rigc::cli {
@@ -33,14 +34,19 @@ class Transfer final : public Command {
     options.number("--end", "SECONDS", request_.end,
                    "Where to end (default: the joints' last key)");
     options.flag("--strict", request_.strict, "A pose that the controls cannot reach is an error");
+    declare_timing(options, timing_);
   }
   void run(Session& session) override {
+    run_timed(timing_, session, [&] { transfer(session); });
+  }
+
+ private:
+  void transfer(Session& session) {
     const auto done = pipeline::transfer_file(request_, out_, session.diagnostics);
     if (!done) return;
     session.out = session.json ? as_json(*done) : as_text(*done);
   }
 
- private:
   static std::string off_as_text(const pipeline::Off& off) {
     return fmt::format("{:.2g} mm ({:.2g} % of height) at \"{}\", {:.2g} degrees at \"{}\"", off.mm,
                        off.percent, printable(off.joint), off.degrees, printable(off.turned_joint));
@@ -103,6 +109,7 @@ class Transfer final : public Command {
 
   pipeline::TransferRequest request_;
   std::string out_;
+  Timing timing_;
 };
 
 }  // namespace

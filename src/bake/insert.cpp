@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "bake/frames.h"
+#include "base/trace.h"
 
 namespace rigc::bake {
 namespace {
@@ -93,6 +94,7 @@ std::vector<char> find_bad(const Evaluator& evaluator, const Motion& motion,
 std::optional<std::vector<double>> insert_frames(const Evaluator& evaluator,
                                                  std::vector<double> times, double tolerance,
                                                  Threads& threads, Diagnostics& diagnostics) {
+  const trace::Span span("insert frames");
   std::vector<Gap> gaps;
   const auto add = [&gaps](const Gap& gap) {
     if (gap.is_wide()) gaps.push_back(gap);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "base/trace.h"
+
 namespace rigc::bake {
 namespace {
 
@@ -87,6 +89,7 @@ std::optional<anim::Clip> bake_back(const Measure& m, const std::vector<double>&
 
 bool measure_deviation(const Measure& m, const std::vector<double>& times, TransferReport& report,
                        Diagnostics& diagnostics) {
+  const trace::Span span("measure");
   const std::vector<double> all = with_middles(times);
   const auto back = bake_back(m, all, diagnostics);
   if (!back) return false;

@@ -9,6 +9,7 @@
 #include "bake/transfer_limb.h"
 #include "bake/transfer_order.h"
 #include "bake/transfer_plugs.h"
+#include "base/trace.h"
 #include "eval/evaluate.h"
 
 namespace rigc::bake {
@@ -325,6 +326,7 @@ class Solver {
 
 std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input,
                               Diagnostics& diagnostics) {
+  const trace::Span span("solve");
   Solver solver(scene, input);
   for (int level = 0; level < input.plan.levels; ++level)
     if (!solver.solve_level(level, diagnostics)) return std::nullopt;

@@ -28,9 +28,8 @@ void Instance::run() {
   const Register* const arguments = program_.arguments.data();
   const double* const data = program_.data.data();
   for (const Instruction& i : program_.instructions)
-    kernels[static_cast<std::size_t>(i.op)].kernel({registers_.data(), i.out,
-                                                    arguments + i.first_argument, i.argument_count,
-                                                    data + i.data});
+    kernels[static_cast<std::size_t>(i.op)].kernel(
+        {registers_.data(), i.out, arguments + i.first_argument, i.argument_count, data + i.data});
 }
 
 }  // namespace rigc::eval

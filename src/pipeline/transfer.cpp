@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "base/trace.h"
 #include "gltf/clips.h"
 #include "gltf/rig.h"
 #include "pipeline/build.h"
@@ -141,6 +142,7 @@ std::optional<TransferredClip> transfer_clip(const TransferRequest& request,
                                              const std::vector<Target>& targets,
                                              std::vector<gltf::ClipChange>& changes,
                                              Diagnostics& diagnostics) {
+  const trace::Span span("transfer clip", trace::kStage, "clip", clip.name);
   TransferredClip out;
   out.name = clip.name;
   gltf::ClipChange change{{clip.name, clip.source_animation, {}}, {}};
