@@ -13,6 +13,7 @@ function(rigc_kernels isa)
   target_link_libraries(rigc_kernels_${isa} PRIVATE rigc_flags)
   target_compile_definitions(rigc_kernels_${isa} PRIVATE RIGC_ISA=${isa})
   target_compile_options(rigc_kernels_${isa} PRIVATE ${ARGN})
+  set(rigc_kernel_objects ${rigc_kernel_objects} $<TARGET_OBJECTS:rigc_kernels_${isa}> PARENT_SCOPE)
 endfunction()
 
 rigc_kernels(baseline)
