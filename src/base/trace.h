@@ -108,8 +108,14 @@ class Span {
   std::size_t index_ = 0;
 };
 
-/// The Chrome trace event format: chrome://tracing and Perfetto open it.
-std::string as_json(const std::vector<ThreadEvents>& threads);
+/// What else is to be known of a run: ("instruction set", "avx2").
+struct Fact {
+  std::string name, value;
+};
+
+/// The Chrome trace event format: chrome://tracing and Perfetto open it and show the facts among
+/// the metadata.
+std::string as_json(const std::vector<ThreadEvents>& threads, const std::vector<Fact>& facts = {});
 
 /// Time by stage, each below the one around it, and by module. Shares are of the time of all
 /// threads.
