@@ -106,7 +106,7 @@ TEST_CASE("plan program: docs/evaluation.md shows the program of its template") 
     text.replace(at, path.size(), "desk.yaml");
   std::size_t seen = 0;
   int lines = 0;
-  for (const std::string& line : lines_of(block_of(page, "", page.find("moth")))) {
+  for (const std::string& line : lines_of(block_of(page, "", page.find("\n```\n$ rigc plan")))) {
     if (line.starts_with("$") || line == "...") continue;
     INFO(line);
     seen = text.find(line + "\n", seen);
