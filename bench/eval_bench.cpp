@@ -185,7 +185,7 @@ void run_biped(benchmark::State& state, eval::Isa isa) {
   state.counters["live"] = live;
   state.counters["instructions"] = static_cast<double>(program->instructions.size());
   state.counters["ns"] = seconds * 1e9 / live;
-  state.counters["ratio"] = seconds / live / bench::bound_seconds(runs_avx2());
+  state.counters["ratio"] = seconds / live / bench::bound_seconds(isa);
 }
 
 /// From a built biped to its first eight frames.
