@@ -10,8 +10,8 @@
 #include "base/files.h"
 #include "base/text.h"
 #include "base/trace.h"
-#include "eval/isa.h"
 #include "pipeline/batch_codes.h"
+#include "pipeline/instruction_set.h"
 
 namespace rigc::cli {
 namespace {
@@ -41,7 +41,7 @@ bool begin_trace(const std::string& path, const std::vector<std::string>& others
 
 /// What the table and the trace say beside times.
 std::vector<trace::Fact> facts() {
-  return {{"instruction set", std::string(eval::name(eval::default_isa()))}};
+  return {{"instruction set", std::string(pipeline::instruction_set())}};
 }
 
 std::string time_text(const std::vector<trace::ThreadEvents>& threads) {

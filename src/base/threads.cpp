@@ -7,7 +7,6 @@
 #include <exception>
 #include <mutex>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -39,11 +38,12 @@ class Threads::Loop {
  private:
   /// Before each item, because threads of other loops come free.
   void recruit() {
-    while (next_ < count_ && helpers_.size() + 1 < count_ && threads_.take_spare()) {
+    while (!refused_ && next_ < count_ && helpers_.size() + 1 < count_ && threads_.take_spare()) {
       try {
         helpers_.emplace_back([this] { help(); });
-      } catch (const std::system_error&) {
-        return;  // no more threads to be had: those that are there do it all
+      } catch (const std::exception&) {
+        refused_ = true;  // no more threads to be had: those that are there do it all
+        ++threads_.spare_;
       }
     }
   }
@@ -89,6 +89,7 @@ class Threads::Loop {
   const std::vector<std::string> stages_ = trace::open_spans();
   std::atomic<std::size_t> next_{0};
   std::vector<std::thread> helpers_;
+  bool refused_ = false;  // by the system: another thread
   std::mutex mutex_;
   std::exception_ptr failure_;
   std::size_t failed_ = 0;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -82,7 +83,7 @@ class Attach {
 
  private:
   detail::Attached* before_;
-  detail::Attached* own_ = nullptr;
+  std::optional<detail::Attached> own_;
 };
 
 /// Where spans of this thread go, for the threads that it starts; null: nowhere.

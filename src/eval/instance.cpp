@@ -6,30 +6,25 @@
 namespace rigc::eval {
 
 Instance::Instance(const Program& program, Isa isa)
-    : program_(program),
-      isa_(isa),
-      registers_(static_cast<std::size_t>(program.rows) * kLanes, 0.0) {
-  for (const Program::Constant& c : program.constants) {
-    double* at = registers_.data() + static_cast<std::size_t>(c.row) * kLanes;
-    for (int lane = 0; lane < kLanes; ++lane) at[lane] = c.value;
-  }
+    : program_(program), kernels_(kernels(isa)), rows_(program.rows) {
+  for (const Program::Constant& c : program.constants)
+    for (double& lane : rows_[c.row].lanes) lane = c.value;
 }
 
-double* Instance::input(std::size_t index) {
-  return registers_.data() + static_cast<std::size_t>(program_.inputs[index].row) * kLanes;
-}
+double* Instance::input(std::size_t index) { return rows_[program_.inputs[index].row].lanes; }
 
 const double* Instance::output(std::size_t index) const {
-  return registers_.data() + static_cast<std::size_t>(program_.outputs[index].row) * kLanes;
+  return rows_[program_.outputs[index].row].lanes;
 }
 
 void Instance::run() {
-  const KernelRow* const kernels = &row(Op{}, isa_);
-  const Register* const arguments = program_.arguments.data();
-  const double* const data = program_.data.data();
-  for (const Instruction& i : program_.instructions)
-    kernels[static_cast<std::size_t>(i.op)].kernel(
-        {registers_.data(), i.out, arguments + i.first_argument, i.argument_count, data + i.data});
+  double* registers = rows_.empty() ? nullptr : rows_[0].lanes;
+  for (const Instruction& i : program_.instructions) {
+    const Register* arguments = program_.arguments.data() + i.first_argument;
+    const double* data = program_.data.data() + i.data;
+    kernels_[static_cast<std::size_t>(i.op)].kernel(
+        {registers, i.out, arguments, i.argument_count, data});
+  }
 }
 
 }  // namespace rigc::eval

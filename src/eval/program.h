@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <new>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +24,7 @@ struct Request {
 };
 
 enum class Op : std::uint8_t;  // kernels/table.h
+struct KernelRow;
 
 struct Instruction {
   Op op;
@@ -61,22 +61,6 @@ class Program {
 std::optional<Program> compile(const scene::Scene& scene, const Request& request,
                                Diagnostics& diagnostics);
 
-/// Places numbers at the beginning of a cache line: no load of a row's vectors crosses two.
-template <class T>
-struct LineAllocator {
-  static constexpr std::align_val_t kLine{64};
-  using value_type = T;
-
-  LineAllocator() = default;
-  template <class U>
-  LineAllocator(const LineAllocator<U>&) {}
-  T* allocate(std::size_t count) {
-    return static_cast<T*>(::operator new(count * sizeof(T), kLine));
-  }
-  void deallocate(T* at, std::size_t) { ::operator delete(at, kLine); }
-  bool operator==(const LineAllocator&) const { return true; }
-};
-
 /// Registers of one thread: set inputs, run, read outputs. Inputs that are never set hold the
 /// scene's values.
 class Instance {
@@ -88,9 +72,14 @@ class Instance {
   void run();
 
  private:
+  /// A line of the cache each, so that no pack lies across two.
+  struct alignas(sizeof(double) * kLanes) Row {
+    double lanes[kLanes] = {};
+  };
+
   const Program& program_;
-  Isa isa_;
-  std::vector<double, LineAllocator<double>> registers_;
+  const KernelRow* kernels_;
+  std::vector<Row> rows_;
 };
 
 }  // namespace rigc::eval

@@ -23,19 +23,11 @@ struct ComposeRigid {
   }
 };
 
-/// A quaternion that turns as `q` does, of any length that matrix() takes as it is: a square root
-/// and four divisions less than normalised().
-RIGC_INLINE Quat turning(const Quat& q) {
-  const Real squares = dot(q, q);
-  const auto plain = (squares > 1e-30) & (squares < 1e30);
-  return any(!plain) ? select(plain, q, generic::normalised(q)) : q;
-}
-
 /// translation, rotation; data: t, unit q -> translation(t) * rotation(q) * T * R
 struct ComposeUnder {
   RIGC_INLINE static void run(const Lanes& lanes) {
     const Quat above = quat_at(lanes.data() + 3);
-    lanes.put(0, Affine{generic::matrix(above * turning(lanes.quat(1))),
+    lanes.put(0, Affine{generic::matrix(above * generic::moderate(lanes.quat(1))),
                         rotate(above, lanes.vec3(0)) + vec3_at(lanes.data())});
   }
 };
