@@ -81,16 +81,15 @@ math::Trs pole(const Unknown& u, const Pose& pose, const Known& known, math::Trs
   return local;
 }
 
-/// Value of the attribute, of those a turn apart the one nearest to the value before.
-double twist(const Unknown& u, const Pose& pose, const Known& known, double before) {
+/// Value of the attribute.
+double twist(const Unknown& u, const Pose& pose, const Known& known) {
   const Bones bones = bones_of(known.limb, pose[u.start], pose[u.middle]);
   const Vec3 side = bent_side(bones, pose[u.start], u.bone_offset);
   const Vec3 bone = u.of_middle ? bones.second : bones.first;
   const Vec3 child = u.of_middle ? bones.second_child : bones.first_child;
   const Affine& joint = pose[u.of_middle ? u.middle : u.start];
   const double degrees = twist_of(bones, side, bone, child, u.joint_offset, joint);
-  const double value = u.at + degrees * u.per_degree, turn = 360 * u.per_degree;
-  return value + std::nearbyint((before - value) / turn) * turn;
+  return u.at + degrees * u.per_degree;
 }
 
 math::Trs look(const Unknown& u, const Pose& pose, const Known& known, math::Trs local) {
@@ -172,7 +171,7 @@ class Solver {
     }
   }
 
-  bool solve_level(int level, Diagnostics& diagnostics) {
+  bool solve_level(int level, Threads& threads, Diagnostics& diagnostics) {
     const auto below = [](const Unknown& u, int at) { return u.level < at; };
     const auto at = [&](int l) {
       return static_cast<std::size_t>(
@@ -181,25 +180,12 @@ class Solver {
     const std::size_t first = at(level), last = at(level + 1);
     const auto program = eval::compile(scene_, request(first, last), diagnostics);
     if (!program) return false;
-    const auto set = [&](eval::Instance& instance, std::size_t frame, int lane) {
-      set_inputs(instance, first, frame, lane);
-    };
-    const auto take = [&](const eval::Instance& instance, std::size_t frame, int lane) {
-      const Pose pose(input_.worlds, frame);
-      std::size_t output = 0;
-      for (std::size_t i = first; i < last; ++i) {
-        const Unknown& u = unknowns_[i];
-        const Known known = read_known(instance, u, output, lane);
-        if (is_twist(u)) {
-          keep_number(i, frame, twist(u, pose, known, number_before(i, frame)));
-          continue;
-        }
-        const math::Trs rest = scene_.local(u.node);
-        keep(i, frame, u.plays ? own(u, played(u, frame), rest) : solve_one(u, pose, known, rest));
-      }
-    };
-    eval::for_frames(*program, input_.times.size(), set, take);
+    eval::for_ranges(*program, input_.times.size(), threads,
+                     [&](eval::Instance& instance, std::size_t) {
+                       return Worker{*this, instance, first, last};
+                     });
     for (std::size_t i = first; i < last; ++i) {
+      make_continuous(i);
       if (is_twist(unknowns_[i])) settle_number(i);
       for (const anim::Path path : kPaths)
         if (solves(unknowns_[i], path)) settle(i, path);
@@ -210,6 +196,40 @@ class Solver {
   Solution take_solution() { return std::move(solution_); }
 
  private:
+  /// A range of frames for the unknowns `first` to `last`; writes to these frames alone.
+  struct Worker {
+    Solver& solver;
+    eval::Instance& instance;
+    std::size_t first_unknown, last_unknown;
+
+    void set(std::size_t first, int lanes) {
+      for (int lane = 0; lane < lanes; ++lane)
+        solver.set_inputs(instance, first_unknown, first + static_cast<std::size_t>(lane), lane);
+    }
+    void take(std::size_t first, int lanes) {
+      for (int lane = 0; lane < lanes; ++lane)
+        solver.take(instance, first_unknown, last_unknown, first + static_cast<std::size_t>(lane),
+                    lane);
+    }
+  };
+
+  void take(const eval::Instance& instance, std::size_t first, std::size_t last, std::size_t frame,
+            int lane) {
+    const Pose pose(input_.worlds, frame);
+    std::size_t output = 0;
+    for (std::size_t i = first; i < last; ++i) {
+      const Unknown& u = unknowns_[i];
+      const Known known = read_known(instance, u, output, lane);
+      const math::Trs rest = scene_.local(u.node);
+      if (is_twist(u))
+        solution_.numbers[i][frame] = twist(u, pose, known);
+      else if (u.plays)
+        solution_.locals[i][frame] = as_written(own(u, played(u, frame), rest));
+      else
+        solution_.locals[i][frame] = as_written(solve_one(u, pose, known, rest));
+    }
+  }
+
   math::Trs played(const Unknown& u, std::size_t frame) const {
     return local_at(input_.aims[static_cast<std::size_t>(u.turn_aim)], input_.times[frame]);
   }
@@ -288,13 +308,22 @@ class Solver {
     }
   }
 
-  double number_before(std::size_t unknown, std::size_t frame) const {
-    return frame == 0 ? scene_.number(unknowns_[unknown].attribute)
-                      : solution_.numbers[unknown][frame - 1];
-  }
-
-  void keep_number(std::size_t unknown, std::size_t frame, double number) {
-    solution_.numbers[unknown][frame] = static_cast<double>(static_cast<float>(number));
+  /// Of a rotation and its negative the one nearer to the frame before; so of turns by 360 degrees
+  /// more or less.
+  void make_continuous(std::size_t unknown) {
+    const Unknown& u = unknowns_[unknown];
+    math::Quat rotation = scene_.local(u.node).rotation;
+    for (math::Trs& local : solution_.locals[unknown]) {
+      if (math::dot(rotation, local.rotation) < 0) local.rotation = -local.rotation;
+      rotation = local.rotation;
+    }
+    if (!is_twist(u)) return;
+    const double turn = 360 * u.per_degree;
+    double before = scene_.number(u.attribute);
+    for (double& number : solution_.numbers[unknown]) {
+      number += std::nearbyint((before - number) / turn) * turn;
+      number = before = static_cast<double>(static_cast<float>(number));
+    }
   }
 
   /// What players read of it: so that the levels above make good what rounding does below.
@@ -306,14 +335,6 @@ class Solver {
     return {vector(local.translation), math::normalised(rounded), vector(local.scale)};
   }
 
-  /// Of a rotation and its negative the one nearer to the frame before.
-  void keep(std::size_t unknown, std::size_t frame, math::Trs local) {
-    const math::Quat before = frame == 0 ? scene_.local(unknowns_[unknown].node).rotation
-                                         : solution_.locals[unknown][frame - 1].rotation;
-    if (math::dot(before, local.rotation) < 0) local.rotation = -local.rotation;
-    solution_.locals[unknown][frame] = as_written(local);
-  }
-
   const scene::Scene& scene_;
   const SolveInput& input_;
   const std::vector<Unknown>& unknowns_;
@@ -323,11 +344,11 @@ class Solver {
 
 }  // namespace
 
-std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input,
+std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input, Threads& threads,
                               Diagnostics& diagnostics) {
   Solver solver(scene, input);
   for (int level = 0; level < input.plan.levels; ++level)
-    if (!solver.solve_level(level, diagnostics)) return std::nullopt;
+    if (!solver.solve_level(level, threads, diagnostics)) return std::nullopt;
   return solver.take_solution();
 }
 

@@ -26,7 +26,7 @@ struct Solution {
   std::vector<std::vector<double>> numbers;    ///< of twists, empty for others
 };
 
-std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input,
+std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input, Threads& threads,
                               Diagnostics& diagnostics);
 
 }  // namespace rigc::bake

@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "bake/transfer_plugs.h"
+
 namespace rigc::bake {
 namespace {
 
@@ -124,15 +126,23 @@ math::Trs local_at(const Aim& aim, double seconds) {
   return local;
 }
 
+const anim::Curve* curve_on(const Aim& aim, anim::Path path) {
+  return path == anim::Path::translation ? aim.translation
+         : path == anim::Path::rotation  ? aim.rotation
+                                         : aim.scale;
+}
+
+bool is_solved(const scene::Scene& scene, const Aim& aim) {
+  return is_driven(scene, aim.id) || (aim.animated() && !aim.direct);
+}
+
 std::vector<Aim> find_aims(const scene::Scene& scene, const std::vector<int>& nodes,
                            const anim::Clip& clip, const std::vector<Standing>& standings) {
   return Finder(scene, nodes, clip, standings).find();
 }
 
 double largest_difference(const Aim& aim, anim::Path path, const math::Trs& local) {
-  const anim::Curve* curve = path == anim::Path::translation ? aim.translation
-                             : path == anim::Path::rotation  ? aim.rotation
-                                                             : aim.scale;
+  const anim::Curve* curve = curve_on(aim, path);
   if (!curve) return differ(local_at(aim, 0), local, path);
   double largest = 0;
   const auto look = [&](double time) {

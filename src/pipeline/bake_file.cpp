@@ -14,6 +14,7 @@
 #include "gltf/rig.h"
 #include "gltf/slim.h"
 #include "pipeline/build.h"
+#include "pipeline/clip_choice.h"
 #include "pipeline/codes.h"
 #include "pipeline/locks.h"
 
@@ -51,43 +52,10 @@ std::optional<bake::Options> read_options(const BakeRequest& request, Diagnostic
   options.end = request.end;
   options.controls_play = request.keep_rig;
   options.threads = request.threads;
-  const auto fps = request.fps == "source" ? std::optional<double>(0) : parse_number(request.fps);
-  const bool positive = fps && (*fps > 0 || request.fps == "source") && *fps <= 10000;
-  if (!positive || (request.start && request.end && *request.start > *request.end)) {
-    diagnostics.report(
-        codes::kBadRange, Place(request.file),
-        positive ? "--start lies after --end"
-                 : fmt::format("\"{}\" is no frame rate", printable(request.fps)),
-        positive ? "" : "--fps takes a number above 0, or source for the keys' own times");
-    return std::nullopt;
-  }
-  options.fps = *fps;
+  const auto rate = read_rate(request.file, request.fps, request.start, request.end, diagnostics);
+  if (!rate) return std::nullopt;
+  options.fps = *rate;
   return options;
-}
-
-/// The clips that the request names; all of them where it names none.
-std::optional<std::set<std::size_t>> choose_clips(const BakeRequest& request,
-                                                  const std::vector<anim::Clip>& clips,
-                                                  Diagnostics& diagnostics) {
-  std::set<std::size_t> chosen;
-  std::vector<std::string> names;
-  for (const anim::Clip& clip : clips) names.push_back(clip.name);
-  for (const std::string& wanted : request.clips) {
-    const auto number = parse_integer(wanted);
-    bool found = false;
-    for (std::size_t i = 0; i < clips.size(); ++i) {
-      if (clips[i].name != wanted && !(number && *number == static_cast<long long>(i))) continue;
-      chosen.insert(i);
-      found = true;
-    }
-    if (found) continue;
-    diagnostics.report(codes::kNoSuchClip, Place(request.file),
-                       fmt::format("there is no clip \"{}\"", printable(wanted)),
-                       suggest(wanted, names));
-  }
-  if (!diagnostics.ok()) return std::nullopt;
-  for (std::size_t i = 0; request.clips.empty() && i < clips.size(); ++i) chosen.insert(i);
-  return chosen;
 }
 
 /// Reports joints that a clip animates although the rig drives them, and shear.
@@ -253,7 +221,7 @@ std::optional<Baked> bake_file(const BakeRequest& request, const std::string& ou
   for (const gltf::Rig& rig : *rigs) check_evaluates(*file, rig, diagnostics);
   const auto clips = gltf::read_clips(*file, diagnostics, &*slim);
   if (!clips || !diagnostics.ok()) return std::nullopt;
-  const auto chosen = choose_clips(request, clips->clips, diagnostics);
+  const auto chosen = choose_clips(request.file, request.clips, clips->clips, diagnostics);
   if (!chosen) return std::nullopt;
 
   const std::vector<Bakeable> bakeable = look_at_rigs(*slim, *rigs);

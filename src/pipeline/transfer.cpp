@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/text.h"
+#include "base/trace.h"
 #include "gltf/clips.h"
 #include "gltf/rig.h"
 #include "pipeline/build.h"
@@ -88,12 +90,22 @@ bool choose_switches(const TransferRequest& request, std::vector<Target>& target
   return diagnostics.ok();
 }
 
+std::vector<TransferredLimb> limbs_of(const std::vector<Target>& targets) {
+  std::vector<TransferredLimb> limbs;
+  for (const Target& target : targets)
+    for (std::size_t i = 0; i < target.found.size(); ++i)
+      limbs.push_back({target.found[i].group, target.switches[i].value == target.found[i].ik});
+  return limbs;
+}
+
 Off off_of(const gltf::Rig& rig, const bake::Deviation& deviation) {
   Off off;
   const tags::Character& character = rig.skeleton.character;
   off.mm = deviation.distance / character.unit * 1000;
   off.percent = deviation.distance / character.height * 100;
   off.degrees = math::degrees(deviation.angle);
+  off.seconds = deviation.farthest_at;
+  off.turned_seconds = deviation.most_turned_at;
   if (deviation.farthest.valid()) off.joint = rig.scene[deviation.farthest].name;
   if (deviation.most_turned.valid()) off.turned_joint = rig.scene[deviation.most_turned].name;
   return off;
@@ -104,10 +116,12 @@ void keep_larger(Off& off, const Off& other) {
     off.mm = other.mm;
     off.percent = other.percent;
     off.joint = other.joint;
+    off.seconds = other.seconds;
   }
   if (other.degrees > off.degrees || off.turned_joint.empty()) {
     off.degrees = other.degrees;
     off.turned_joint = other.turned_joint;
+    off.turned_seconds = other.turned_seconds;
   }
 }
 
@@ -129,6 +143,7 @@ void report_off(const TransferRequest& request, const anim::Clip& clip, const Of
 void add_report(const bake::TransferReport& one, bake::TransferReport& sum) {
   sum.joints += one.joints;
   sum.frames = std::max(sum.frames, one.frames);
+  sum.inserted = std::max(sum.inserted, one.inserted);
   sum.controls += one.controls;
   sum.channels += one.channels;
   sum.keys += one.keys;
@@ -141,6 +156,7 @@ std::optional<TransferredClip> transfer_clip(const TransferRequest& request,
                                              const std::vector<Target>& targets,
                                              std::vector<gltf::ClipChange>& changes,
                                              Diagnostics& diagnostics) {
+  const trace::Span span("transfer clip", trace::kStage, "clip", clip.name);
   TransferredClip out;
   out.name = clip.name;
   gltf::ClipChange change{{clip.name, clip.source_animation, {}}, {}};
@@ -148,6 +164,7 @@ std::optional<TransferredClip> transfer_clip(const TransferRequest& request,
     bake::TransferOptions options = wanted;
     options.standings = target.standings;
     options.switches = target.switches;
+    options.tolerance = request.tolerance_mm / 1000 * target.rig->skeleton.character.unit;
     bake::TransferReport report;
     auto one =
         bake::transfer(target.rig->scene, target.rig->nodes, clip, options, report, diagnostics);
@@ -155,6 +172,8 @@ std::optional<TransferredClip> transfer_clip(const TransferRequest& request,
     if (report.joints == 0) continue;
     add_report(report, out.report);
     for (const scene::NodeId id : report.kept) out.kept.push_back(target.rig->scene[id].name);
+    for (const scene::NodeId id : report.untouched)
+      out.untouched.push_back(target.rig->scene[id].name);
     keep_larger(out.at_keys, off_of(*target.rig, report.at_keys));
     keep_larger(out.between, off_of(*target.rig, report.between));
     auto& channels = change.clip.channels;
@@ -169,12 +188,21 @@ std::optional<TransferredClip> transfer_clip(const TransferRequest& request,
   return out;
 }
 
+bool check_tolerance(const TransferRequest& request, Diagnostics& diagnostics) {
+  if (request.tolerance_mm >= 0 && std::isfinite(request.tolerance_mm)) return true;
+  diagnostics.report(codes::kBadRange, Place(request.file),
+                     fmt::format("a tolerance of {} mm is not possible", request.tolerance_mm),
+                     "--tolerance takes millimetres, 0 or more");
+  return false;
+}
+
 }  // namespace
 
 std::optional<TransferredFile> transfer_file(const TransferRequest& request, const std::string& out,
                                              Diagnostics& diagnostics) {
   const auto rate = read_rate(request.file, request.fps, request.start, request.end, diagnostics);
-  if (!rate || !check_output_name(out, diagnostics)) return std::nullopt;
+  if (!rate || !check_tolerance(request, diagnostics) || !check_output_name(out, diagnostics))
+    return std::nullopt;
   const auto file = gltf::open(request.file, diagnostics);
   if (!file) return std::nullopt;
   const auto rigs = gltf::read_rigs(*file, diagnostics);
@@ -196,7 +224,9 @@ std::optional<TransferredFile> transfer_file(const TransferRequest& request, con
   options.fps = *rate;
   options.start = request.start;
   options.end = request.end;
+  options.threads = request.threads;
   TransferredFile result;
+  result.limbs = limbs_of(*targets);
   std::vector<gltf::ClipChange> changes;
   for (const std::size_t i : *chosen) {
     auto one = transfer_clip(request, options, clips->clips[i], *targets, changes, diagnostics);
