@@ -92,7 +92,8 @@ class Transfer final : public Command {
     text += "    off at keys by up to " + off_as_text(clip.at_keys) + "\n";
     if (report.frames > 1) text += "    between keys by up to " + off_as_text(clip.between) + "\n";
     if (!clip.kept.empty())
-      text += "    channels stay for what controls do not say of " + names_as_text(clip.kept) + "\n";
+      text +=
+          "    channels stay for what controls do not say of " + names_as_text(clip.kept) + "\n";
     if (!clip.untouched.empty())
       text += "    no control moves " + names_as_text(clip.untouched) + ": as they were\n";
     return text;

@@ -81,6 +81,7 @@ class Run {
       const bool inserts = options_.fps == 0 && options_.tolerance > 0;
       if (!inserts || !split(*gaps, options_.tolerance, times)) {
         report = std::move(one);
+        report.replaced = replaced_controls(scene_, nodes_, clip_, *out);
         return out;
       }
       if (!check_frame_count(static_cast<double>(times.size()), width(), diagnostics))

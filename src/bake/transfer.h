@@ -65,6 +65,7 @@ struct TransferReport {
   /// Joints that keep channels of their own for what no control says of them.
   std::vector<scene::NodeId> kept;
   std::vector<scene::NodeId> untouched;  ///< joints that nothing of the rig moves: as they were
+  std::vector<scene::NodeId> replaced;   ///< controls whose keys of before are gone
   Deviation at_keys;
   Deviation between;  ///< at three times between each two
 };

@@ -152,6 +152,24 @@ class Writer {
   Transferred out_;
 };
 
+/// Which of a clip's channels stay after a transfer.
+class Stays {
+ public:
+  explicit Stays(const Transferred& transferred)
+      : dropped_(transferred.dropped.begin(), transferred.dropped.end()) {
+    for (const anim::Channel& channel : transferred.clip.channels)
+      replaced_.emplace(channel.node, channel.path, channel.attribute);
+  }
+  bool operator()(const anim::Channel& channel) const {
+    return !dropped_.contains(channel.source_channel) &&
+           !replaced_.contains({channel.node, channel.path, channel.attribute});
+  }
+
+ private:
+  std::set<int> dropped_;
+  std::set<std::tuple<int, anim::Path, std::string>> replaced_;
+};
+
 }  // namespace
 
 Transferred write_channels(const WriteInput& input, TransferReport& report) {
@@ -167,16 +185,24 @@ Transferred write_channels(const WriteInput& input, TransferReport& report) {
   return writer.finish(report);
 }
 
+std::vector<NodeId> replaced_controls(const scene::Scene& scene, const std::vector<int>& nodes,
+                                      const anim::Clip& clip, const Transferred& transferred) {
+  const Stays stays(transferred);
+  std::set<int> touched;
+  for (const anim::Channel& channel : clip.channels)
+    if (!stays(channel)) touched.insert(channel.node);
+  std::vector<NodeId> controls;
+  for (const NodeId id : scene.nodes())
+    if (scene[id].kind == scene::Kind::control && touched.contains(nodes[id.index]))
+      controls.push_back(id);
+  return controls;
+}
+
 anim::Clip changed(const anim::Clip& clip, const Transferred& transferred) {
-  const std::set<int> dropped(transferred.dropped.begin(), transferred.dropped.end());
-  std::set<std::tuple<int, anim::Path, std::string>> replaced;
-  for (const anim::Channel& channel : transferred.clip.channels)
-    replaced.emplace(channel.node, channel.path, channel.attribute);
+  const Stays stays(transferred);
   anim::Clip out = transferred.clip;
   for (const anim::Channel& channel : clip.channels)
-    if (!dropped.contains(channel.source_channel) &&
-        !replaced.contains({channel.node, channel.path, channel.attribute}))
-      out.channels.push_back(channel);
+    if (stays(channel)) out.channels.push_back(channel);
   return out;
 }
 

@@ -23,6 +23,11 @@ struct WriteInput {
 /// report counts.
 Transferred write_channels(const WriteInput& input, TransferReport& report);
 
+/// Controls that had channels in the clip which are replaced or gone after the transfer, by node.
+std::vector<scene::NodeId> replaced_controls(const scene::Scene& scene,
+                                             const std::vector<int>& nodes, const anim::Clip& clip,
+                                             const Transferred& transferred);
+
 /// The clip as it is after the transfer.
 anim::Clip changed(const anim::Clip& clip, const Transferred& transferred);
 

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <set>
 
+#include "bake/transfer_plugs.h"
 #include "base/text.h"
 #include "base/trace.h"
 #include "gltf/clips.h"
@@ -98,9 +100,24 @@ bool concerns(const anim::Clip& clip, const std::set<int>& controls) {
                      [&](const auto& channel) { return controls.count(channel.node) != 0; });
 }
 
+/// How many channels, not made by a bake, say what the rig says of joints. What it does not drive
+/// of a joint, as its scale, is evaluated with the rest.
+std::size_t count_foreign(const gltf::Rig& rig, const anim::Clip& clip) {
+  std::map<int, scene::NodeId> joints;
+  for (const scene::NodeId id : rig.scene.nodes())
+    if (rig.scene[id].kind == scene::Kind::joint) joints.emplace(rig.nodes[id.index], id);
+  return static_cast<std::size_t>(
+      std::count_if(clip.channels.begin(), clip.channels.end(), [&](const anim::Channel& channel) {
+        const auto joint = joints.find(channel.node);
+        return joint != joints.end() && channel.path <= anim::Path::scale && !channel.baked &&
+               bake::is_driven(rig.scene, bake::plug_of(joint->second, channel.path));
+      }));
+}
+
 /// What baking a clip gives, without anything being written.
 struct ClipResult {
   bool good = false;
+  std::size_t foreign = 0;  ///< channels that say what the rig says
   BakedClip baked;
   gltf::ClipChange change;  ///< empty where the clip passes through
 };
@@ -128,8 +145,8 @@ class ClipBaker {
     }
     result.good = true;
     if (result.baked.passed_through) return result;
-    const std::size_t foreign = drop_channels(clip, controls, driven, result.change);
-    report_clip(request_, clip, result.baked, foreign, diagnostics);
+    drop_channels(clip, controls, driven, result.change);
+    report_clip(request_, clip, result.baked, result.foreign, diagnostics);
     // Where the rig stays, the next bake or update must know what it may make again.
     for (anim::Channel& channel : out.channels) channel.baked = request_.keep_rig;
     return result;
@@ -148,22 +165,19 @@ class ClipBaker {
     std::vector<anim::Channel>& channels = result.change.clip.channels;
     std::move(joints->channels.begin(), joints->channels.end(), std::back_inserter(channels));
     driven.insert(report.driven.begin(), report.driven.end());
+    result.foreign += count_foreign(rig, clip);
     add_report(report, rig, result.baked);
     return true;
   }
 
-  /// Gives how many of them were not made by a bake, on driven joints.
-  std::size_t drop_channels(const anim::Clip& clip, const std::set<int>& controls,
-                            const std::set<int>& driven, gltf::ClipChange& change) const {
-    std::size_t foreign = 0;
+  void drop_channels(const anim::Clip& clip, const std::set<int>& controls,
+                     const std::set<int>& driven, gltf::ClipChange& change) const {
     for (const anim::Channel& channel : clip.channels) {
       const bool on_driven = driven.count(channel.node) != 0;
-      foreign += on_driven && !channel.baked ? 1 : 0;
       const bool on_control = controls.count(channel.node) != 0 && !request_.keep_rig;
       if (on_driven || on_control || channel.baked)
         change.dropped_channels.push_back(channel.source_channel);
     }
-    return foreign;
   }
 
   const BakeRequest& request_;

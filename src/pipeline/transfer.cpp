@@ -14,6 +14,7 @@
 #include "pipeline/build.h"
 #include "pipeline/clip_choice.h"
 #include "pipeline/codes.h"
+#include "pipeline/locks.h"
 #include "pipeline/transfer_codes.h"
 
 namespace rigc::pipeline {
@@ -140,6 +141,17 @@ void report_off(const TransferRequest& request, const anim::Clip& clip, const Of
                      fmt::format("clip \"{}\": joint {}", printable(clip.name), what));
 }
 
+void report_replaced(const TransferRequest& request, const gltf::Rig& rig, const anim::Clip& clip,
+                     const std::vector<scene::NodeId>& controls, Diagnostics& diagnostics) {
+  if (controls.empty()) return;
+  const std::string& first = rig.scene[controls.front()].name;
+  diagnostics.report(codes::kReplacedKeys,
+                     Place(request.file, fmt::format("/animations/{}", clip.source_animation)),
+                     fmt::format("clip \"{}\": keys on {} control{}, \"{}\" first, are replaced",
+                                 printable(clip.name), controls.size(),
+                                 controls.size() == 1 ? "" : "s", printable(first)));
+}
+
 void add_report(const bake::TransferReport& one, bake::TransferReport& sum) {
   sum.joints += one.joints;
   sum.frames = std::max(sum.frames, one.frames);
@@ -176,6 +188,8 @@ std::optional<TransferredClip> transfer_clip(const TransferRequest& request,
       out.untouched.push_back(target.rig->scene[id].name);
     keep_larger(out.at_keys, off_of(*target.rig, report.at_keys));
     keep_larger(out.between, off_of(*target.rig, report.between));
+    report_replaced(request, *target.rig, clip, report.replaced, diagnostics);
+    report_locked_keys(request.file, *target.rig, one->clip, diagnostics);
     auto& channels = change.clip.channels;
     channels.insert(channels.end(), one->clip.channels.begin(), one->clip.channels.end());
     change.dropped_channels.insert(change.dropped_channels.end(), one->dropped.begin(),
