@@ -69,27 +69,31 @@ class Run {
   std::optional<Transferred> at(std::vector<double> times, TransferReport& report,
                                 Diagnostics& diagnostics) {
     const std::size_t begun_with = times.size();
+    std::vector<std::size_t> gaps = all_gaps(times);
     for (;;) {
       TransferReport one = report;
       auto out = write(times, one, diagnostics);
       if (!out) return std::nullopt;
       const MeasureInput input{scene_, nodes_, aims_, options_.standings, changed(clip_, *out)};
-      const auto gaps = measure(input, times, threads(), one, diagnostics);
-      if (!gaps) return std::nullopt;
-      one.frames = times.size();
-      one.inserted = times.size() - begun_with;
-      const bool inserts = options_.fps == 0 && options_.tolerance > 0;
-      if (!inserts || !split(*gaps, options_.tolerance, times)) {
-        report = std::move(one);
-        report.replaced = replaced_controls(scene_, nodes_, clip_, *out);
-        return out;
-      }
+      const auto off = measure(input, times, gaps, threads(), one, diagnostics);
+      if (!off) return std::nullopt;
+      const bool measured_all = gaps.size() + 1 >= times.size();
+      if (inserts()) gaps = split(gaps, *off, options_.tolerance, times);
       if (!check_frame_count(static_cast<double>(times.size()), width(), diagnostics))
         return std::nullopt;
+      if (inserts() && !gaps.empty()) continue;
+      if (!measured_all && !measure(input, times, all_gaps(times), threads(), one, diagnostics))
+        return std::nullopt;
+      one.frames = times.size();
+      one.inserted = times.size() - begun_with;
+      one.replaced = replaced_controls(scene_, nodes_, clip_, *out);
+      report = std::move(one);
+      return out;
     }
   }
 
  private:
+  bool inserts() const { return options_.fps == 0 && options_.tolerance > 0; }
   Threads& threads() { return options_.threads ? *options_.threads : alone_; }
 
   std::optional<Transferred> write(const std::vector<double>& times, TransferReport& report,

@@ -3,6 +3,7 @@
 #include "bake/transfer_measure.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "bake/motion.h"
 
@@ -100,9 +101,18 @@ class Rig {
   std::vector<int> places_;  // in bodies_, by aim; -1: a bake does not touch it
 };
 
-double inside(double begin, double end, std::size_t i) {
-  const double share = static_cast<double>(i + 1) / (kInside + 1);
-  return static_cast<double>(static_cast<float>(begin + (end - begin) * share));
+struct Gap {
+  double begin, end;
+  double inside(std::size_t i) const {
+    const double share = static_cast<double>(i + 1) / (kInside + 1);
+    return static_cast<double>(static_cast<float>(begin + (end - begin) * share));
+  }
+  double middle() const { return inside(kInside / 2); }
+  bool is_wide() const { return end - begin > kShortest && middle() > begin && middle() < end; }
+};
+
+Gap gap_at(const std::vector<double>& times, std::size_t i) {
+  return {times[i], times[std::min(i + 1, times.size() - 1)]};
 }
 
 /// What a thread finds.
@@ -114,36 +124,43 @@ struct Block {
 class Measurement {
  public:
   Measurement(const MeasureInput& input, const Rig& rig, const std::vector<double>& times,
-              std::vector<double>& gaps)
-      : aims_(input.aims), rig_(rig), times_(times), gaps_(gaps) {}
+              const std::vector<std::size_t>& gaps)
+      : aims_(input.aims), rig_(rig), times_(times), gaps_(gaps), off_(gaps.size(), 0) {}
 
-  /// Gaps from `first` on.
-  void run(std::size_t first, Threads& threads, Block& block) {
-    const std::size_t last = std::min(first + kBlock, times_.size() - 1);
-    std::vector<double> times{times_[first]};
-    for (std::size_t gap = first; gap < last; ++gap) {
-      for (std::size_t i = 0; i < kInside; ++i)
-        times.push_back(inside(times_[gap], times_[gap + 1], i));
-      times.push_back(times_[gap + 1]);
+  /// Gaps number `first` to `last` of the list.
+  void run(std::size_t first, std::size_t last, Threads& threads, Block& block) {
+    std::vector<double> times;
+    for (std::size_t i = first; i < last; ++i) {
+      const Gap gap = gap_at(times_, gaps_[i]);
+      times.push_back(gap.begin);
+      for (std::size_t k = 0; k < kInside; ++k) times.push_back(gap.inside(k));
+      times.push_back(gap.end);
     }
     const auto motion = rig_.run(std::move(times), threads, block.diagnostics);
     if (!motion) return;
     const auto wanted = play(aims_, motion->times);
-    std::vector<double> off;
-    for (std::size_t f = 0; f < motion->times.size(); ++f) {
-      const bool is_key = f % (kInside + 1) == 0;
-      off.push_back(compare(wanted, *motion, f, is_key ? block.at_keys : block.between));
-    }
-    for (std::size_t gap = first; gap < last; ++gap) {
-      const auto begin = off.begin() + static_cast<std::ptrdiff_t>((gap - first) * (kInside + 1));
-      const double at_ends = std::max(*begin, *(begin + kInside + 1));
-      gaps_[gap] = *std::max_element(begin + 1, begin + kInside + 1) - at_ends;
-    }
+    for (std::size_t i = first; i < last; ++i)
+      off_[i] = measure_gap(wanted, *motion, (i - first) * (kInside + 2), block);
   }
 
+  std::vector<double> take_off() { return std::move(off_); }
+
  private:
-  double compare(const std::vector<std::vector<math::Affine>>& wanted, const Motion& motion,
-                 std::size_t frame, Deviation& deviation) const {
+  using Worlds = std::vector<std::vector<math::Affine>>;
+
+  /// `frame`: of the gap's begin.
+  double measure_gap(const Worlds& wanted, const Motion& motion, std::size_t frame,
+                     Block& block) const {
+    const double at_begin = compare(wanted, motion, frame, block.at_keys);
+    const double at_end = compare(wanted, motion, frame + kInside + 1, block.at_keys);
+    double inside = 0;
+    for (std::size_t k = 1; k <= kInside; ++k)
+      inside = std::max(inside, compare(wanted, motion, frame + k, block.between));
+    return inside - std::max(at_begin, at_end);
+  }
+
+  double compare(const Worlds& wanted, const Motion& motion, std::size_t frame,
+                 Deviation& deviation) const {
     const std::vector<math::Affine> got = rig_.worlds(motion, frame);
     const double seconds = motion.times[frame];
     double off = 0;
@@ -161,42 +178,53 @@ class Measurement {
   const std::vector<Aim>& aims_;
   const Rig& rig_;
   const std::vector<double>& times_;
-  std::vector<double>& gaps_;
+  const std::vector<std::size_t>& gaps_;
+  std::vector<double> off_;  // by gap of the list
 };
 
 }  // namespace
 
+std::vector<std::size_t> all_gaps(const std::vector<double>& times) {
+  std::vector<std::size_t> gaps(std::max<std::size_t>(times.size() - 1, 1));
+  std::iota(gaps.begin(), gaps.end(), std::size_t{0});
+  return gaps;
+}
+
 std::optional<std::vector<double>> measure(const MeasureInput& input,
-                                           const std::vector<double>& times, Threads& threads,
+                                           const std::vector<double>& times,
+                                           const std::vector<std::size_t>& gaps, Threads& threads,
                                            TransferReport& report, Diagnostics& diagnostics) {
   Rig rig(input);
   if (!rig.compile(diagnostics)) return std::nullopt;
-  std::vector<double> gaps(times.size() - 1, 0);
-  std::vector<Block> blocks(std::max<std::size_t>((gaps.size() + kBlock - 1) / kBlock, 1),
+  std::vector<Block> blocks((gaps.size() + kBlock - 1) / kBlock,
                             Block{{}, {}, Diagnostics(diagnostics.sources())});
   Measurement measurement(input, rig, times, gaps);
-  threads.for_each(blocks.size(),
-                   [&](std::size_t i) { measurement.run(i * kBlock, threads, blocks[i]); });
+  threads.for_each(blocks.size(), [&](std::size_t i) {
+    measurement.run(i * kBlock, std::min((i + 1) * kBlock, gaps.size()), threads, blocks[i]);
+  });
   for (const Block& block : blocks) {
     diagnostics.append(block.diagnostics);
     if (!block.diagnostics.ok()) return std::nullopt;
     keep_larger(block.at_keys, report.at_keys);
     keep_larger(block.between, report.between);
   }
-  return gaps;
+  return measurement.take_off();
 }
 
-bool split(const std::vector<double>& gaps, double tolerance, std::vector<double>& times) {
-  std::vector<double> more;
-  for (std::size_t gap = 0; gap < gaps.size(); ++gap) {
-    const double begin = times[gap], end = times[gap + 1];
-    const double middle = inside(begin, end, kInside / 2);
-    const bool is_wide = end - begin > kShortest && middle > begin && middle < end;
-    if (is_wide && gaps[gap] > tolerance) more.push_back(middle);
+std::vector<std::size_t> split(const std::vector<std::size_t>& gaps, const std::vector<double>& off,
+                               double tolerance, std::vector<double>& times) {
+  std::vector<double> middles;
+  std::vector<std::size_t> halves;
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    const Gap gap = gap_at(times, gaps[i]);
+    if (!gap.is_wide() || !(off[i] > tolerance)) continue;
+    halves.push_back(gaps[i] + middles.size());
+    halves.push_back(gaps[i] + middles.size() + 1);
+    middles.push_back(gap.middle());
   }
-  times.insert(times.end(), more.begin(), more.end());
+  times.insert(times.end(), middles.begin(), middles.end());
   std::sort(times.begin(), times.end());
-  return !more.empty();
+  return halves;
 }
 
 }  // namespace rigc::bake

@@ -18,15 +18,21 @@ struct MeasureInput {
   anim::Clip clip;  ///< on controls
 };
 
-/// Evaluates the rig at all of these times, which rise, and at three between each two; fills the
-/// report's deviations. Gives for each gap how far a joint, or a point at the length of its limb
-/// from it, is off in it beyond what it is at the gap's ends, rig units.
+/// Indices of all gaps between times: gap i lies between times i and i + 1. One time alone counts
+/// as a gap too.
+std::vector<std::size_t> all_gaps(const std::vector<double>& times);
+
+/// Evaluates the rig at the ends of these gaps and at three times in each; raises the report's
+/// deviations. Gives for each how far a joint, or a point at the length of its limb from it, is off
+/// in it beyond what it is at its ends, rig units. `times`: rising, seconds.
 std::optional<std::vector<double>> measure(const MeasureInput& input,
-                                           const std::vector<double>& times, Threads& threads,
+                                           const std::vector<double>& times,
+                                           const std::vector<std::size_t>& gaps, Threads& threads,
                                            TransferReport& report, Diagnostics& diagnostics);
 
-/// Adds a time in the middle of each gap that is off by more than `tolerance`; those below a
-/// millisecond stay. False: none was added.
-bool split(const std::vector<double>& gaps, double tolerance, std::vector<double>& times);
+/// Adds a time in the middle of each of these gaps that is off by more than `tolerance`; those
+/// below a millisecond stay. Gives the new gaps.
+std::vector<std::size_t> split(const std::vector<std::size_t>& gaps, const std::vector<double>& off,
+                               double tolerance, std::vector<double>& times);
 
 }  // namespace rigc::bake

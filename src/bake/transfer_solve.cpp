@@ -171,6 +171,22 @@ class Solver {
     }
   }
 
+  /// What the clip moves besides: every level needs it.
+  void sample(Threads& threads) {
+    samples_.resize(input_.clip.size());
+    threads.for_each(samples_.size(), [&](std::size_t i) {
+      const eval::ClipInput& input = input_.clip[i];
+      const auto width = static_cast<std::size_t>(input.curve->width);
+      const bool rotation = input.plug.attribute == transform::kRotation;
+      samples_[i].resize(input_.times.size() * width);
+      for (std::size_t f = 0; f < input_.times.size(); ++f) {
+        double n[4];
+        anim::sample(*input.curve, rotation, input_.times[f], n);
+        std::copy_n(n, width, samples_[i].data() + f * width);
+      }
+    });
+  }
+
   bool solve_level(int level, Threads& threads, Diagnostics& diagnostics) {
     const auto below = [](const Unknown& u, int at) { return u.level < at; };
     const auto at = [&](int l) {
@@ -258,11 +274,10 @@ class Solver {
 
   void set_inputs(eval::Instance& instance, std::size_t count, std::size_t frame, int lane) const {
     std::size_t at = 0;
-    for (const eval::ClipInput& input : input_.clip) {
-      double n[4];
-      const bool rotation = input.plug.attribute == transform::kRotation;
-      anim::sample(*input.curve, rotation, input_.times[frame], n);
-      eval::set_lane(instance.input(at++), lane, n, input.curve->width);
+    for (std::size_t i = 0; i < input_.clip.size(); ++i) {
+      const int width = input_.clip[i].curve->width;
+      const double* n = samples_[i].data() + frame * static_cast<std::size_t>(width);
+      eval::set_lane(instance.input(at++), lane, n, width);
     }
     for (const SwitchValue& value : input_.switches)
       eval::set_lane(instance.input(at++), lane, &value.value, 1);
@@ -339,6 +354,7 @@ class Solver {
   const SolveInput& input_;
   const std::vector<Unknown>& unknowns_;
   Noise noise_;
+  std::vector<std::vector<double>> samples_;  // of what the clip moves besides, [inputs][frames]
   Solution solution_;
 };
 
@@ -347,6 +363,7 @@ class Solver {
 std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input, Threads& threads,
                               Diagnostics& diagnostics) {
   Solver solver(scene, input);
+  solver.sample(threads);
   for (int level = 0; level < input.plan.levels; ++level)
     if (!solver.solve_level(level, threads, diagnostics)) return std::nullopt;
   return solver.take_solution();

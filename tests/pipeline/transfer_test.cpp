@@ -337,8 +337,9 @@ TEST_CASE("pipeline transfer: limits and locks hold, and what they keep from the
   };
   const float half = 0.70710678f;  // of a quarter turn
   CHECK(codes({0, 0, 0, 1, 0, half, 0, half}).empty());
-  CHECK(codes({0, 0, 0, 1, 0, 1, 0, 0}) == "796 ");        // beyond its limit
-  CHECK(codes({0, 0, 0, 1, half, 0, 0, half}) == "795 796 ");  // about a locked axis
+  // The handle could be where it was if its control were not locked.
+  CHECK(codes({0, 0, 0, 1, 0, -half, 0, half}) == "795 796 ");  // the wrong way
+  CHECK(codes({0, 0, 0, 1, half, 0, 0, half}) == "795 796 ");   // about a locked axis
 }
 
 TEST_CASE("pipeline transfer: keys that controls had already are replaced, and that is told") {
