@@ -55,9 +55,10 @@ class Transfer final : public Command {
  private:
   static std::string off_as_text(const pipeline::Off& off) {
     return fmt::format(
-        "{:.2g} mm ({:.2g} % of height; \"{}\" at {:.2f} s), {:.2g} degrees (\"{}\" at {:.2f} s)",
-        off.mm, off.percent, printable(off.joint), off.seconds, off.degrees,
-        printable(off.turned_joint), off.turned_seconds);
+        "{} mm ({} % of height; \"{}\" at {:.2f} s), {} degrees (\"{}\" at {:.2f} s)",
+        pipeline::short_number(off.mm), pipeline::short_number(off.percent), printable(off.joint),
+        off.seconds, pipeline::short_number(off.degrees), printable(off.turned_joint),
+        off.turned_seconds);
   }
 
   /// The first few names, and how many more there are.

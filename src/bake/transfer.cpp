@@ -25,7 +25,7 @@ std::vector<eval::ClipInput> other_inputs(const scene::Scene& scene, const std::
   std::set<Plug> taken;
   for (const SwitchValue& value : switches) taken.insert(value.attribute);
   for (const Unknown& u : plan.unknowns) {
-    if (u.rule == Unknown::Rule::twist) taken.insert(u.attribute);
+    if (is_twist(u)) taken.insert(u.attribute);
     for (const anim::Path path : kPaths)
       if (solves(u, path)) taken.insert(plug_of(u.node, path));
   }
@@ -69,41 +69,60 @@ class Run {
   std::optional<Transferred> at(std::vector<double> times, TransferReport& report,
                                 Diagnostics& diagnostics) {
     const std::size_t begun_with = times.size();
+    auto solution = solve_at(times, diagnostics);
     std::vector<std::size_t> gaps = all_gaps(times);
-    for (;;) {
+    std::vector<GapOff> off(gaps.size());
+    while (solution) {
       TransferReport one = report;
-      auto out = write(times, one, diagnostics);
-      if (!out) return std::nullopt;
-      const MeasureInput input{scene_, nodes_, aims_, options_.standings, changed(clip_, *out)};
-      const auto off = measure(input, times, gaps, threads(), one, diagnostics);
-      if (!off) return std::nullopt;
-      const bool measured_all = gaps.size() + 1 >= times.size();
-      if (inserts()) gaps = split(gaps, *off, options_.tolerance, times);
-      if (!check_frame_count(static_cast<double>(times.size()), width(), diagnostics))
-        return std::nullopt;
-      if (inserts() && !gaps.empty()) continue;
-      if (!measured_all && !measure(input, times, all_gaps(times), threads(), one, diagnostics))
-        return std::nullopt;
-      one.frames = times.size();
-      one.inserted = times.size() - begun_with;
-      one.replaced = replaced_controls(scene_, nodes_, clip_, *out);
-      report = std::move(one);
-      return out;
+      Transferred out = write_channels(
+          {scene_, nodes_, aims_, clip_, options_.switches, plan_, *solution, times}, one);
+      const MeasureInput input{scene_, nodes_, aims_, options_.standings, changed(clip_, out)};
+      if (!measure(input, times, gaps, threads(), off, diagnostics)) return std::nullopt;
+      std::vector<double> more;
+      if (inserts()) gaps = split(gaps, options_.tolerance, times, off, more);
+      if (more.empty()) {
+        finish(times.size(), begun_with, off, one);
+        one.replaced = replaced_controls(scene_, nodes_, clip_, out);
+        report = std::move(one);
+        return out;
+      }
+      solution = extended(*solution, times, more, diagnostics);
     }
+    return std::nullopt;
   }
 
  private:
   bool inserts() const { return options_.fps == 0 && options_.tolerance > 0; }
   Threads& threads() { return options_.threads ? *options_.threads : alone_; }
 
-  std::optional<Transferred> write(const std::vector<double>& times, TransferReport& report,
-                                   Diagnostics& diagnostics) {
+  std::optional<Solution> solve_at(const std::vector<double>& times, Diagnostics& diagnostics) {
     const auto worlds = play(aims_, times);
-    const auto solution = solve(scene_, {plan_, aims_, worlds, others_, options_.switches, times},
-                                threads(), diagnostics);
-    if (!solution) return std::nullopt;
-    return write_channels(
-        {scene_, nodes_, aims_, clip_, options_.switches, plan_, *solution, times}, report);
+    return solve(scene_, {plan_, aims_, worlds, others_, options_.switches, times}, threads(),
+                 diagnostics);
+  }
+
+  /// Solves at `more` and puts that among `times`. Frames do not depend on each other, but for what
+  /// is taken for rounding.
+  std::optional<Solution> extended(const Solution& solution, std::vector<double>& times,
+                                   const std::vector<double>& more, Diagnostics& diagnostics) {
+    const auto count = static_cast<double>(times.size() + more.size());
+    if (!check_frame_count(count, width(), diagnostics)) return std::nullopt;
+    const auto added = solve_at(more, diagnostics);
+    if (!added) return std::nullopt;
+    Solution all = merged(scene_, aims_, plan_, solution, times, *added, more);
+    times.insert(times.end(), more.begin(), more.end());
+    std::sort(times.begin(), times.end());
+    return all;
+  }
+
+  static void finish(std::size_t frames, std::size_t begun_with, const std::vector<GapOff>& off,
+                     TransferReport& report) {
+    report.frames = frames;
+    report.inserted = frames - begun_with;
+    for (const GapOff& gap : off) {
+      keep_larger(gap.at_ends, report.at_keys);
+      keep_larger(gap.inside, report.between);
+    }
   }
 
   const scene::Scene& scene_;

@@ -14,24 +14,11 @@ constexpr std::size_t kInside = 3;   // times in a gap at which it is looked at
 constexpr std::size_t kBlock = 256;  // gaps that a thread measures in a row
 constexpr double kShortest = 1e-3;   // seconds
 
-double angle_between(const math::Affine& a, const math::Affine& b) {
-  const math::Quat turn = math::conjugate(math::quaternion(math::orthonormal(a.linear))) *
-                          math::quaternion(math::orthonormal(b.linear));
-  const double sine = math::length({turn.x, turn.y, turn.z});
-  return 2 * math::atan2(sine, turn.w < 0 ? -turn.w : turn.w);
-}
-
-void keep_larger(const Deviation& one, Deviation& largest) {
-  if (one.farthest.valid() && (one.distance > largest.distance || !largest.farthest.valid())) {
-    largest.distance = one.distance;
-    largest.farthest = one.farthest;
-    largest.farthest_at = one.farthest_at;
-  }
-  if (one.most_turned.valid() && (one.angle > largest.angle || !largest.most_turned.valid())) {
-    largest.angle = one.angle;
-    largest.most_turned = one.most_turned;
-    largest.most_turned_at = one.most_turned_at;
-  }
+/// Between two frames of unit axes, radians.
+double angle_between(const math::Mat3& a, const math::Mat3& b) {
+  double sum = 0;  // 8 sin^2 of half the angle
+  for (const math::Vec3& apart : {a.x - b.x, a.y - b.y, a.z - b.z}) sum += math::dot(apart, apart);
+  return 2 * math::asin(math::sqrt(sum / 8));
 }
 
 std::vector<bool> animated_nodes(const scene::Scene& scene,
@@ -115,20 +102,14 @@ Gap gap_at(const std::vector<double>& times, std::size_t i) {
   return {times[i], times[std::min(i + 1, times.size() - 1)]};
 }
 
-/// What a thread finds.
-struct Block {
-  Deviation at_keys, between;
-  Diagnostics diagnostics;
-};
-
 class Measurement {
  public:
   Measurement(const MeasureInput& input, const Rig& rig, const std::vector<double>& times,
-              const std::vector<std::size_t>& gaps)
-      : aims_(input.aims), rig_(rig), times_(times), gaps_(gaps), off_(gaps.size(), 0) {}
+              const std::vector<std::size_t>& gaps, std::vector<GapOff>& off)
+      : aims_(input.aims), rig_(rig), times_(times), gaps_(gaps), off_(off) {}
 
   /// Gaps number `first` to `last` of the list.
-  void run(std::size_t first, std::size_t last, Threads& threads, Block& block) {
+  void run(std::size_t first, std::size_t last, Threads& threads, Diagnostics& diagnostics) {
     std::vector<double> times;
     for (std::size_t i = first; i < last; ++i) {
       const Gap gap = gap_at(times_, gaps_[i]);
@@ -136,27 +117,26 @@ class Measurement {
       for (std::size_t k = 0; k < kInside; ++k) times.push_back(gap.inside(k));
       times.push_back(gap.end);
     }
-    const auto motion = rig_.run(std::move(times), threads, block.diagnostics);
+    const auto motion = rig_.run(std::move(times), threads, diagnostics);
     if (!motion) return;
     const auto wanted = play(aims_, motion->times);
     for (std::size_t i = first; i < last; ++i)
-      off_[i] = measure_gap(wanted, *motion, (i - first) * (kInside + 2), block);
+      off_[gaps_[i]] = measure_gap(wanted, *motion, (i - first) * (kInside + 2));
   }
-
-  std::vector<double> take_off() { return std::move(off_); }
 
  private:
   using Worlds = std::vector<std::vector<math::Affine>>;
 
   /// `frame`: of the gap's begin.
-  double measure_gap(const Worlds& wanted, const Motion& motion, std::size_t frame,
-                     Block& block) const {
-    const double at_begin = compare(wanted, motion, frame, block.at_keys);
-    const double at_end = compare(wanted, motion, frame + kInside + 1, block.at_keys);
+  GapOff measure_gap(const Worlds& wanted, const Motion& motion, std::size_t frame) const {
+    GapOff off;
+    const double at_begin = compare(wanted, motion, frame, off.at_ends);
+    const double at_end = compare(wanted, motion, frame + kInside + 1, off.at_ends);
     double inside = 0;
     for (std::size_t k = 1; k <= kInside; ++k)
-      inside = std::max(inside, compare(wanted, motion, frame + k, block.between));
-    return inside - std::max(at_begin, at_end);
+      inside = std::max(inside, compare(wanted, motion, frame + k, off.inside));
+    off.excess = inside - std::max(at_begin, at_end);
+    return off;
   }
 
   double compare(const Worlds& wanted, const Motion& motion, std::size_t frame,
@@ -166,23 +146,37 @@ class Measurement {
     double off = 0;
     for (std::size_t i = 0; i < aims_.size(); ++i) {
       const math::Affine& aim = wanted[i][frame];
-      const NodeId id = aims_[i].id;
+      const scene::NodeId id = aims_[i].id;
       const double distance = math::length(aim.origin - got[i].origin);
-      keep_larger({distance, angle_between(aim, got[i]), id, id, seconds, seconds}, deviation);
+      const double angle =
+          angle_between(math::orthonormal(aim.linear), math::orthonormal(got[i].linear));
+      keep_larger({distance, angle, id, id, seconds, seconds}, deviation);
       off = std::max(off, rig_.off(i, aim, got[i]));
     }
     return off;
   }
 
-  using NodeId = scene::NodeId;
   const std::vector<Aim>& aims_;
   const Rig& rig_;
   const std::vector<double>& times_;
   const std::vector<std::size_t>& gaps_;
-  std::vector<double> off_;  // by gap of the list
+  std::vector<GapOff>& off_;
 };
 
 }  // namespace
+
+void keep_larger(const Deviation& one, Deviation& largest) {
+  if (one.farthest.valid() && (one.distance > largest.distance || !largest.farthest.valid())) {
+    largest.distance = one.distance;
+    largest.farthest = one.farthest;
+    largest.farthest_at = one.farthest_at;
+  }
+  if (one.most_turned.valid() && (one.angle > largest.angle || !largest.most_turned.valid())) {
+    largest.angle = one.angle;
+    largest.most_turned = one.most_turned;
+    largest.most_turned_at = one.most_turned_at;
+  }
+}
 
 std::vector<std::size_t> all_gaps(const std::vector<double>& times) {
   std::vector<std::size_t> gaps(std::max<std::size_t>(times.size() - 1, 1));
@@ -190,40 +184,45 @@ std::vector<std::size_t> all_gaps(const std::vector<double>& times) {
   return gaps;
 }
 
-std::optional<std::vector<double>> measure(const MeasureInput& input,
-                                           const std::vector<double>& times,
-                                           const std::vector<std::size_t>& gaps, Threads& threads,
-                                           TransferReport& report, Diagnostics& diagnostics) {
+bool measure(const MeasureInput& input, const std::vector<double>& times,
+             const std::vector<std::size_t>& gaps, Threads& threads, std::vector<GapOff>& off,
+             Diagnostics& diagnostics) {
   Rig rig(input);
-  if (!rig.compile(diagnostics)) return std::nullopt;
-  std::vector<Block> blocks((gaps.size() + kBlock - 1) / kBlock,
-                            Block{{}, {}, Diagnostics(diagnostics.sources())});
-  Measurement measurement(input, rig, times, gaps);
-  threads.for_each(blocks.size(), [&](std::size_t i) {
-    measurement.run(i * kBlock, std::min((i + 1) * kBlock, gaps.size()), threads, blocks[i]);
+  if (!rig.compile(diagnostics)) return false;
+  std::vector<Diagnostics> reported((gaps.size() + kBlock - 1) / kBlock,
+                                    Diagnostics(diagnostics.sources()));
+  Measurement measurement(input, rig, times, gaps, off);
+  threads.for_each(reported.size(), [&](std::size_t i) {
+    measurement.run(i * kBlock, std::min((i + 1) * kBlock, gaps.size()), threads, reported[i]);
   });
-  for (const Block& block : blocks) {
-    diagnostics.append(block.diagnostics);
-    if (!block.diagnostics.ok()) return std::nullopt;
-    keep_larger(block.at_keys, report.at_keys);
-    keep_larger(block.between, report.between);
+  for (const Diagnostics& one : reported) {
+    diagnostics.append(one);
+    if (!one.ok()) return false;
   }
-  return measurement.take_off();
+  return true;
 }
 
-std::vector<std::size_t> split(const std::vector<std::size_t>& gaps, const std::vector<double>& off,
-                               double tolerance, std::vector<double>& times) {
-  std::vector<double> middles;
+std::vector<std::size_t> split(const std::vector<std::size_t>& gaps, double tolerance,
+                               const std::vector<double>& times, std::vector<GapOff>& off,
+                               std::vector<double>& more) {
   std::vector<std::size_t> halves;
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    const Gap gap = gap_at(times, gaps[i]);
-    if (!gap.is_wide() || !(off[i] > tolerance)) continue;
-    halves.push_back(gaps[i] + middles.size());
-    halves.push_back(gaps[i] + middles.size() + 1);
-    middles.push_back(gap.middle());
+  std::vector<GapOff> after;
+  std::size_t copied = 0;
+  for (const std::size_t i : gaps) {
+    const Gap gap = gap_at(times, i);
+    if (!gap.is_wide() || !(off[i].excess > tolerance)) continue;
+    const auto at = [&](std::size_t index) {
+      return off.begin() + static_cast<std::ptrdiff_t>(index);
+    };
+    after.insert(after.end(), at(copied), at(i));
+    copied = i + 1;
+    more.push_back(gap.middle());
+    halves.push_back(after.size());
+    halves.push_back(after.size() + 1);
+    after.resize(after.size() + 2);
   }
-  times.insert(times.end(), middles.begin(), middles.end());
-  std::sort(times.begin(), times.end());
+  after.insert(after.end(), off.begin() + static_cast<std::ptrdiff_t>(copied), off.end());
+  off = std::move(after);
   return halves;
 }
 

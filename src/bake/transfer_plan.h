@@ -51,6 +51,8 @@ inline bool solves(const Unknown& u, anim::Path path) {
                                          : u.scales;
 }
 
+inline bool is_twist(const Unknown& u) { return u.rule == Unknown::Rule::twist; }
+
 struct TransferPlan {
   std::vector<Unknown> unknowns;  ///< by level
   int levels = 0;

@@ -9,13 +9,11 @@
 #include "bake/transfer_limb.h"
 #include "bake/transfer_order.h"
 #include "bake/transfer_plugs.h"
+#include "bake/transfer_tidy.h"
 #include "eval/evaluate.h"
 
 namespace rigc::bake {
 namespace {
-
-/// What counts as rounding in an angle.
-constexpr double kDegreeNoise = 2e-5;
 
 using math::Affine;
 using math::Vec3;
@@ -149,18 +147,22 @@ Known read_known(const eval::Instance& instance, const Unknown& u, std::size_t& 
   return known;
 }
 
-void copy(const math::Trs& from, anim::Path path, math::Trs& to) {
-  if (path == anim::Path::translation) to.translation = from.translation;
-  if (path == anim::Path::rotation) to.rotation = from.rotation;
-  if (path == anim::Path::scale) to.scale = from.scale;
+/// Two lists in the order that their times give.
+template <class T>
+std::vector<T> interleaved(const std::vector<T>& a, const std::vector<double>& times_of_a,
+                           const std::vector<T>& b, const std::vector<double>& times_of_b) {
+  std::vector<T> out;
+  for (std::size_t i = 0, k = 0; i < a.size() || k < b.size();) {
+    const bool from_a = k == b.size() || (i < a.size() && times_of_a[i] < times_of_b[k]);
+    out.push_back(from_a ? a[i++] : b[k++]);
+  }
+  return out;
 }
-
-bool is_twist(const Unknown& u) { return u.rule == Unknown::Rule::twist; }
 
 class Solver {
  public:
   Solver(const scene::Scene& scene, const SolveInput& input)
-      : scene_(scene), input_(input), unknowns_(input.plan.unknowns), noise_(scene, input.aims) {
+      : scene_(scene), input_(input), unknowns_(input.plan.unknowns), tidy_(scene, input.aims) {
     solution_.locals.resize(unknowns_.size());
     solution_.numbers.resize(unknowns_.size());
     for (std::size_t i = 0; i < unknowns_.size(); ++i) {
@@ -201,10 +203,8 @@ class Solver {
                        return Worker{*this, instance, first, last};
                      });
     for (std::size_t i = first; i < last; ++i) {
-      make_continuous(i);
-      if (is_twist(unknowns_[i])) settle_number(i);
-      for (const anim::Path path : kPaths)
-        if (solves(unknowns_[i], path)) settle(i, path);
+      tidy_(unknowns_[i], solution_.locals[i]);
+      tidy_(unknowns_[i], solution_.numbers[i]);
     }
     return true;
   }
@@ -296,51 +296,6 @@ class Solver {
     }
   }
 
-  /// What only rounding moves stays, where the scene has it or where it begins: it gets no keys.
-  void settle(std::size_t unknown, anim::Path path) {
-    std::vector<math::Trs>& locals = solution_.locals[unknown];
-    const NodeId node = unknowns_[unknown].node;
-    const double noise = noise_.of(node, path);
-    for (const math::Trs& still : {scene_.local(node), locals.front()}) {
-      const bool stays = std::all_of(locals.begin(), locals.end(), [&](const math::Trs& local) {
-        return differ(local, still, path) <= noise;
-      });
-      if (!stays) continue;
-      for (math::Trs& local : locals) copy(still, path, local);
-      return;
-    }
-  }
-
-  void settle_number(std::size_t unknown) {
-    std::vector<double>& numbers = solution_.numbers[unknown];
-    for (const double still : {scene_.number(unknowns_[unknown].attribute), numbers.front()}) {
-      const bool stays = std::all_of(numbers.begin(), numbers.end(), [&](double number) {
-        return std::abs(number - still) <= kDegreeNoise;
-      });
-      if (!stays) continue;
-      std::fill(numbers.begin(), numbers.end(), still);
-      return;
-    }
-  }
-
-  /// Of a rotation and its negative the one nearer to the frame before; so of turns by 360 degrees
-  /// more or less.
-  void make_continuous(std::size_t unknown) {
-    const Unknown& u = unknowns_[unknown];
-    math::Quat rotation = scene_.local(u.node).rotation;
-    for (math::Trs& local : solution_.locals[unknown]) {
-      if (math::dot(rotation, local.rotation) < 0) local.rotation = -local.rotation;
-      rotation = local.rotation;
-    }
-    if (!is_twist(u)) return;
-    const double turn = 360 * u.per_degree;
-    double before = scene_.number(u.attribute);
-    for (double& number : solution_.numbers[unknown]) {
-      number += std::nearbyint((before - number) / turn) * turn;
-      number = before = static_cast<double>(static_cast<float>(number));
-    }
-  }
-
   /// What players read of it: so that the levels above make good what rounding does below.
   static math::Trs as_written(const math::Trs& local) {
     const auto number = [](double x) { return static_cast<double>(static_cast<float>(x)); };
@@ -353,7 +308,7 @@ class Solver {
   const scene::Scene& scene_;
   const SolveInput& input_;
   const std::vector<Unknown>& unknowns_;
-  Noise noise_;
+  Tidy tidy_;
   std::vector<std::vector<double>> samples_;  // of what the clip moves besides, [inputs][frames]
   Solution solution_;
 };
@@ -367,6 +322,20 @@ std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input
   for (int level = 0; level < input.plan.levels; ++level)
     if (!solver.solve_level(level, threads, diagnostics)) return std::nullopt;
   return solver.take_solution();
+}
+
+Solution merged(const scene::Scene& scene, const std::vector<Aim>& aims, const TransferPlan& plan,
+                const Solution& a, const std::vector<double>& times_of_a, const Solution& b,
+                const std::vector<double>& times_of_b) {
+  const Tidy tidy(scene, aims);
+  Solution out;
+  for (std::size_t i = 0; i < plan.unknowns.size(); ++i) {
+    out.locals.push_back(interleaved(a.locals[i], times_of_a, b.locals[i], times_of_b));
+    out.numbers.push_back(interleaved(a.numbers[i], times_of_a, b.numbers[i], times_of_b));
+    tidy(plan.unknowns[i], out.locals.back());
+    tidy(plan.unknowns[i], out.numbers.back());
+  }
+  return out;
 }
 
 }  // namespace rigc::bake

@@ -29,4 +29,9 @@ struct Solution {
 std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input, Threads& threads,
                               Diagnostics& diagnostics);
 
+/// Solutions at times that are not the same, as one at all of them.
+Solution merged(const scene::Scene& scene, const std::vector<Aim>& aims, const TransferPlan& plan,
+                const Solution& a, const std::vector<double>& times_of_a, const Solution& b,
+                const std::vector<double>& times_of_b);
+
 }  // namespace rigc::bake

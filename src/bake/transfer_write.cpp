@@ -177,7 +177,7 @@ Transferred write_channels(const WriteInput& input, TransferReport& report) {
   for (const SwitchValue& value : input.switches) writer.add(value);
   for (std::size_t i = 0; i < input.plan.unknowns.size(); ++i) {
     const Unknown& u = input.plan.unknowns[i];
-    if (u.rule == Unknown::Rule::twist)
+    if (is_twist(u))
       writer.add_twist(u, input.solution.numbers[i]);
     else
       writer.add(u, input.solution.locals[i]);

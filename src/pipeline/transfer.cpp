@@ -130,11 +130,11 @@ void report_off(const TransferRequest& request, const anim::Clip& clip, const Of
                 Diagnostics& diagnostics) {
   std::string what;
   if (off.percent > kFar * 100)
-    what = fmt::format("\"{}\" is up to {:.3g} mm ({:.2g} % of height) away", printable(off.joint),
-                       off.mm, off.percent);
+    what = fmt::format("\"{}\" is up to {} mm ({} % of height) away", printable(off.joint),
+                       short_number(off.mm), short_number(off.percent));
   if (off.degrees > kTurned)
-    what += fmt::format("{}\"{}\" is turned by up to {:.3g} degrees", what.empty() ? "" : ", ",
-                        printable(off.turned_joint), off.degrees);
+    what += fmt::format("{}\"{}\" is turned by up to {} degrees", what.empty() ? "" : ", ",
+                        printable(off.turned_joint), short_number(off.degrees));
   if (what.empty()) return;
   diagnostics.report(request.strict ? codes::kNotReachedStrictly : codes::kNotReached,
                      Place(request.file, fmt::format("/animations/{}", clip.source_animation)),
@@ -211,6 +211,10 @@ bool check_tolerance(const TransferRequest& request, Diagnostics& diagnostics) {
 }
 
 }  // namespace
+
+std::string short_number(double x) {
+  return std::abs(x) < 100 ? fmt::format("{:.2g}", x) : fmt::format("{:.0f}", x);
+}
 
 std::optional<TransferredFile> transfer_file(const TransferRequest& request, const std::string& out,
                                              Diagnostics& diagnostics) {

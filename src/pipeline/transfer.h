@@ -37,6 +37,9 @@ struct Off {
   double turned_seconds = 0;
 };
 
+/// Two digits, or all of those before the point.
+std::string short_number(double x);
+
 struct TransferredClip {
   std::string name;
   bool passed_through = false;    ///< it animates no joint that a rig drives

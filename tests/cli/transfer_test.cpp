@@ -115,6 +115,10 @@ TEST_CASE("cli transfer: wrong usage and mistakes write nothing") {
   const fs::path folder = lamp_rising("transfer_refused", "base");
   write(folder / "shot.gltf", "precious");
   const Surroundings here{folder, {}};
+  const auto count_files = [&] {
+    return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+  };
+  const auto before = count_files();
   CHECK(run_rigc({"transfer", "lamp.gltf"}, here).status == 2);
   CHECK(run_rigc({"transfer", "-o", "shot.gltf"}, here).status == 2);
   CHECK(run_rigc({"transfer", "missing.gltf", "-o", "shot.gltf"}, here).status == 3);
@@ -139,7 +143,7 @@ TEST_CASE("cli transfer: wrong usage and mistakes write nothing") {
     CHECK(run.out.empty());
   }
   CHECK(file_text(folder / "shot.gltf") == "precious");
-  CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 3);
+  CHECK(count_files() == before);
 }
 
 }  // namespace rigc::test
