@@ -7,8 +7,8 @@
 #include <set>
 
 #include "bake/frames.h"
+#include "bake/joints.h"
 #include "bake/transfer_measure.h"
-#include "bake/transfer_plugs.h"
 #include "bake/transfer_times.h"
 #include "bake/transfer_write.h"
 

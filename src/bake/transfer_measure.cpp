@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "bake/joints.h"
 #include "bake/motion.h"
 
 namespace rigc::bake {
@@ -19,14 +20,6 @@ double angle_between(const math::Mat3& a, const math::Mat3& b) {
   double sum = 0;  // 8 sin^2 of half the angle
   for (const math::Vec3& apart : {a.x - b.x, a.y - b.y, a.z - b.z}) sum += math::dot(apart, apart);
   return 2 * math::asin(math::sqrt(sum / 8));
-}
-
-std::vector<bool> animated_nodes(const scene::Scene& scene,
-                                 const std::vector<eval::ClipInput>& inputs) {
-  std::vector<bool> animated(scene.size(), false);
-  for (const eval::ClipInput& input : inputs)
-    if (input.plug.attribute < scene::transform::kCount) animated[input.plug.node.index] = true;
-  return animated;
 }
 
 /// The rig under its clip, ready to be evaluated as a bake would.

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/joints.h"
 #include "bake/transfer_plan.h"
-#include "bake/transfer_plugs.h"
 
 namespace rigc::bake {
 namespace {

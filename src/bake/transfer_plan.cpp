@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "bake/joints.h"
 #include "bake/transfer_order.h"
 #include "bake/transfer_own.h"
 #include "bake/transfer_plugs.h"

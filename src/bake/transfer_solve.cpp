@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/joints.h"
 #include "bake/transfer_limb.h"
 #include "bake/transfer_order.h"
-#include "bake/transfer_plugs.h"
 #include "bake/transfer_tidy.h"
 #include "eval/evaluate.h"
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "bake/transfer_plugs.h"
+#include "bake/joints.h"
 
 namespace rigc::bake {
 namespace {
@@ -29,15 +29,6 @@ Curves curves_of(const anim::Clip& clip) {
     curves.emplace(std::pair(channel.node, channel.path), &channel.curve);
   }
   return curves;
-}
-
-/// A joint of the skeleton, or one that a command hung under bones.
-bool is_bone(const scene::Scene& scene, NodeId id) {
-  for (NodeId at = id; at.valid(); at = scene[at].parent) {
-    if (scene[at].kind != Kind::joint) return false;
-    if (scene[at].is_skeleton()) return true;
-  }
-  return false;
 }
 
 class Finder {
@@ -100,12 +91,6 @@ class Finder {
 };
 
 }  // namespace
-
-NodeId transform_above(const scene::Scene& scene, NodeId id) {
-  NodeId at = scene[id].parent;
-  while (at.valid() && !scene::spec(scene[at].kind).is_transform) at = scene[at].parent;
-  return at;
-}
 
 math::Trs local_at(const Aim& aim, double seconds) {
   math::Trs local = aim.standing.local;

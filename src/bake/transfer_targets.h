@@ -60,7 +60,4 @@ class Noise {
   double size_ = 0;  ///< how far a joint rests from the origin
 };
 
-/// The nearest transform above a node.
-scene::NodeId transform_above(const scene::Scene& scene, scene::NodeId id);
-
 }  // namespace rigc::bake

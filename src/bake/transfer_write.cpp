@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include "bake/tracks.h"
-#include "bake/transfer_plugs.h"
 #include "bake/transfer_times.h"
 
 namespace rigc::bake {

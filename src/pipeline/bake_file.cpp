@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "bake/transfer_plugs.h"
+#include "bake/joints.h"
 #include "base/text.h"
 #include "base/trace.h"
 #include "gltf/clips.h"

@@ -102,6 +102,11 @@ std::vector<double> keys_and_between(const anim::Clip& clip) {
   return times;
 }
 
+std::ptrdiff_t morphing(const anim::Clip& clip) {
+  return std::count_if(clip.channels.begin(), clip.channels.end(),
+                       [](const auto& channel) { return channel.path == anim::Path::weights; });
+}
+
 /// Every clip of every humanoid; the largest distance of each is below `allowed`.
 void check_corpus(const std::vector<std::string>& limbs, const std::string& what, double allowed) {
   std::size_t clips = 0, characters = 0;
@@ -117,9 +122,12 @@ void check_corpus(const std::vector<std::string>& limbs, const std::string& what
     Diagnostics diagnostics;
     const Trip trip = there_and_back(rigged, limbs, name, diagnostics);
     CHECK(trip.report.clips.size() == sources.size());
+    const auto keyed = clips_of(trip.keyed);
+    REQUIRE(keyed.size() == sources.size());
     for (std::size_t i = 0; i < sources.size(); ++i) {
       CAPTURE(sources[i].name);
       CHECK_FALSE(trip.report.clips[i].passed_through);
+      CHECK(morphing(keyed[i]) == morphing(sources[i]));
       const double off = farthest(rigged, trip.baked, sources[i], keys_and_between(sources[i]));
       CHECK(off < allowed);
       largest = std::max(largest, off);
