@@ -82,12 +82,12 @@ void bound(benchmark::State& state, Run<Number> run, bool can_run, std::size_t c
 
 }  // namespace
 
-double rigc::bench::bound_seconds(bool avx2) {
+double rigc::bench::bound_seconds(eval::Isa isa) {
   Chains<double> chains(300);
   const auto hierarchy = chains.hierarchy();
   const double seconds = least_batch(
       [&] {
-        avx2 ? lower_bound_avx2(hierarchy) : lower_bound_sse2(hierarchy);
+        isa == eval::Isa::avx2 ? lower_bound_avx2(hierarchy) : lower_bound_sse2(hierarchy);
         benchmark::DoNotOptimize(chains.worlds[0]);
       },
       0.02);

@@ -145,14 +145,12 @@ std::size_t live_transforms(const scene::Scene& scene, const eval::Program& prog
   return live;
 }
 
-/// Which lower bound a program is held against.
-bool runs_avx2() { return false; }
-
 using Make = void (*)(Rig&, int);
 
 /// Evaluates blocks; gives the seconds of one frame at best.
-double run_blocks(benchmark::State& state, const Rig& rig, const eval::Program& program) {
-  eval::Instance instance(program);
+double run_blocks(benchmark::State& state, const Rig& rig, const eval::Program& program,
+                  eval::Isa isa) {
+  eval::Instance instance(program, isa);
   pose(rig, instance);
   instance.run();
   const double first = instance.output(0)[0];
@@ -164,30 +162,30 @@ double run_blocks(benchmark::State& state, const Rig& rig, const eval::Program& 
   return seconds / eval::kLanes;
 }
 
-void run(benchmark::State& state, Make make, int nodes, bool against_bound) {
+void run(benchmark::State& state, Make make, int nodes, bool against_bound, eval::Isa isa) {
   Rig rig;
   make(rig, nodes);
   Diagnostics diagnostics;
   const auto program = eval::compile(rig.scene, rig.request, diagnostics);
   if (!program) return state.SkipWithError("the scene does not compile");
-  const double seconds = run_blocks(state, rig, *program) / nodes;
+  const double seconds = run_blocks(state, rig, *program, isa) / nodes;
   state.counters["ns"] = seconds * 1e9;
-  if (against_bound) state.counters["ratio"] = seconds / bench::bound_seconds(runs_avx2());
+  if (against_bound) state.counters["ratio"] = seconds / bench::bound_seconds(isa);
 }
 
-void run_biped(benchmark::State& state) {
+void run_biped(benchmark::State& state, eval::Isa isa) {
   Rig rig;
   Diagnostics diagnostics;
   const auto program =
       make_biped(rig) ? eval::compile(rig.scene, rig.request, diagnostics) : std::nullopt;
   if (!program) return state.SkipWithError("the biped does not compile");
-  const double seconds = run_blocks(state, rig, *program);
+  const double seconds = run_blocks(state, rig, *program, isa);
   const auto live = static_cast<double>(live_transforms(rig.scene, *program));
   state.counters["us_per_frame"] = seconds * 1e6;
   state.counters["live"] = live;
   state.counters["instructions"] = static_cast<double>(program->instructions.size());
   state.counters["ns"] = seconds * 1e9 / live;
-  state.counters["ratio"] = seconds / live / bench::bound_seconds(runs_avx2());
+  state.counters["ratio"] = seconds / live / bench::bound_seconds(isa);
 }
 
 /// From a built biped to its first eight frames.
@@ -257,6 +255,10 @@ void compile_biped(benchmark::State& state) {
   state.counters["ns"] = seconds * 1e9 / static_cast<double>(rig.scene.nodes().size());
 }
 
+std::string evaluate_name(const std::string& rig, eval::Isa isa) {
+  return "evaluate/" + rig + "/" + std::string(eval::name(isa));
+}
+
 }  // namespace
 
 void rigc::bench::add_eval_benchmarks() {
@@ -273,13 +275,15 @@ void rigc::bench::add_eval_benchmarks() {
       {"tree/100000", make_tree, 100'000, true},     {"ik_two_bone/20", make_two_bones, 20, false},
       {"ik_chain/10", make_ik_chains, 10, false},
   };
-  benchmark::RegisterBenchmark("evaluate/biped", run_biped);
+  for (const eval::Isa isa : eval::available_isas())
+    benchmark::RegisterBenchmark(evaluate_name("biped", isa).c_str(), run_biped, isa);
   benchmark::RegisterBenchmark("compile/biped", compile_biped)->Unit(benchmark::kMicrosecond);
   benchmark::RegisterBenchmark("first_block/biped", first_block)->Unit(benchmark::kMicrosecond);
   for (const auto& rig : rigs) {
     const std::string name = rig.name;
-    benchmark::RegisterBenchmark(("evaluate/" + name).c_str(), run, rig.make, rig.nodes,
-                                 rig.is_hierarchy);
+    for (const eval::Isa isa : eval::available_isas())
+      benchmark::RegisterBenchmark(evaluate_name(name, isa).c_str(), run, rig.make, rig.nodes,
+                                   rig.is_hierarchy, isa);
     benchmark::RegisterBenchmark(("compile/" + name).c_str(), compile, rig.make, rig.nodes);
   }
   for (const int nodes : {100, 1000, 2000, 10'000})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Nanoseconds of each kind of instruction in one frame, dispatch included: a program of sixteen of
-// them, small enough for the first cache, over random input.
+// Nanoseconds of each kind of instruction in one frame, for each instruction set, dispatch
+// included: a program of sixteen of them, small enough for the first cache, over random input.
 #include <benchmark/benchmark.h>
 
 #include <map>
@@ -163,8 +163,8 @@ class Maker {
   Numbers lanes_;
 };
 
-void kernel(benchmark::State& state, Op op) {
-  const eval::KernelRow& row = eval::row(op);
+void kernel(benchmark::State& state, Op op, eval::Isa isa) {
+  const eval::KernelRow& row = eval::row(op, isa);
   const auto known = forms().find(std::string(row.name));
   Form form;
   if (known != forms().end()) {
@@ -176,7 +176,7 @@ void kernel(benchmark::State& state, Op op) {
   }
   Maker maker;
   for (int i = 0; i < kInstructions; ++i) maker.add(op, form);
-  eval::Instance instance(maker.program());
+  eval::Instance instance(maker.program(), isa);
   maker.fill(instance);
   const double least = bench::least_seconds(state, [&] {
     instance.run();
@@ -189,7 +189,10 @@ void kernel(benchmark::State& state, Op op) {
 
 void rigc::bench::add_kernel_benchmarks() {
   for (int op = 0; op < static_cast<int>(Op::count); ++op) {
-    const auto name = std::string(eval::row(static_cast<Op>(op)).name);
-    benchmark::RegisterBenchmark(("instruction/" + name).c_str(), kernel, static_cast<Op>(op));
+    for (const eval::Isa isa : eval::available_isas()) {
+      const auto begin = "instruction/" + std::string(eval::row(static_cast<Op>(op)).name);
+      const auto name = begin + "/" + std::string(eval::name(isa));
+      benchmark::RegisterBenchmark(name.c_str(), kernel, static_cast<Op>(op), isa);
+    }
   }
 }

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
+#include "pipeline/instruction_set.h"
 
 namespace {
 
@@ -84,6 +85,13 @@ bool unknown_command(int argc, char** argv, const std::vector<std::unique_ptr<Co
   return true;
 }
 
+/// An instruction set was asked for that cannot be used: said so.
+bool refused_isa() {
+  const std::string problem = rigc::pipeline::instruction_set_problem();
+  if (!problem.empty()) print(stderr, "rigc: " + problem + "\n");
+  return !problem.empty();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -100,7 +108,7 @@ int main(int argc, char** argv) {
   app.get_formatter()->column_width(34);
   Session session;
   auto table = rigc::cli::commands();
-  if (unknown_command(argc, argv, table)) return 2;
+  if (refused_isa() || unknown_command(argc, argv, table)) return 2;
   for (auto& command : table) {
     CLI::App* sub = app.add_subcommand(command->name(), command->summary());
     ParserOptions options(*sub);
@@ -116,7 +124,8 @@ int main(int argc, char** argv) {
   app.footer(
       "`rigc COMMAND --help` explains a command. Exit status: 0 done, 1 errors in the work, 2 "
       "wrong usage, "
-      "3 the file system refused.");
+      "3 the file system refused. The environment's RIGC_ISA=baseline or avx2 forces the "
+      "instruction set of evaluation; results do not depend on it.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

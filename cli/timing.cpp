@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "base/trace.h"
 #include "pipeline/batch_codes.h"
+#include "pipeline/instruction_set.h"
 
 namespace rigc::cli {
 namespace {
@@ -38,9 +39,15 @@ bool begin_trace(const std::string& path, const std::vector<std::string>& others
   return write_file(path, {trace::as_json({})}, diagnostics);
 }
 
-/// What --time prints: a table, and below it what the machine was asked for.
+/// What the table and the trace say beside times.
+std::vector<trace::Fact> facts() {
+  return {{"instruction set", std::string(pipeline::instruction_set())}};
+}
+
 std::string time_text(const std::vector<trace::ThreadEvents>& threads) {
-  return trace::as_table(threads);
+  std::string text = trace::as_table(threads);
+  for (const trace::Fact& fact : facts()) text += fmt::format("{}: {}\n", fact.name, fact.value);
+  return text;
 }
 
 }  // namespace
@@ -63,7 +70,7 @@ void run_timed(const Timing& timing, Session& session, const std::function<void(
   const std::vector<trace::ThreadEvents> threads = recorder.threads();
   if (timing.table) session.notes += time_text(threads);
   if (!timing.trace.empty())
-    write_file(timing.trace, {trace::as_json(threads)}, session.diagnostics);
+    write_file(timing.trace, {trace::as_json(threads, facts())}, session.diagnostics);
 }
 
 }  // namespace rigc::cli

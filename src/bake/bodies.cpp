@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bake/joints.h"
+#include "scene/hierarchy.h"
 
 namespace rigc::bake {
 namespace {
@@ -46,19 +47,20 @@ class Finder {
 
   std::vector<Body> find() {
     for (const NodeId id : scene_.nodes())
-      if (is_bone(scene_, id) && nodes_[id.index] >= 0 && gets_channels(id)) add_with_bases(id);
+      if (scene::is_bone(scene_, id) && nodes_[id.index] >= 0 && gets_channels(id))
+        add_with_bases(id);
     return std::move(bodies_);
   }
 
  private:
   Standing standing(NodeId id) const {
     if (!options_.standings.empty()) return options_.standings[id.index];
-    return {transform_above(scene_, id), {}, scene_.local(id)};
+    return {scene::transform_above(scene_, id), {}, scene_.local(id)};
   }
 
   bool is_direct(NodeId id) const {
     const Standing place = standing(id);
-    return place.base == transform_above(scene_, id) && place.between == math::Affine{};
+    return place.base == scene::transform_above(scene_, id) && place.between == math::Affine{};
   }
 
   bool stands_as_scene(NodeId id) const { return near(standing(id).local, scene_.local(id)); }
@@ -67,7 +69,7 @@ class Finder {
     const NodeId base = standing(id).base;
     // What hangs under a control moves with it, connected or not. A limited joint may not play what
     // its own channels say.
-    if (is_driven(scene_, id) || !is_direct(id) || (base.valid() && !is_bone(scene_, base)))
+    if (is_driven(scene_, id) || !is_direct(id) || (base.valid() && !scene::is_bone(scene_, base)))
       return true;
     return animated_[id.index] && (limited_[id.index] || !stands_as_scene(id));
   }
@@ -92,7 +94,7 @@ class Finder {
               place.between,
               place.local,
               Body::Source::local,
-              is_bone(scene_, id) && gets_channels(id)};
+              scene::is_bone(scene_, id) && gets_channels(id)};
     const bool base_plays = body.base < 0 || bodies_[static_cast<std::size_t>(body.base)].source !=
                                                  Body::Source::standing;
     const bool follows = base_plays && is_direct(id);

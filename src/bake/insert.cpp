@@ -4,6 +4,7 @@
 #include "bake/insert.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bake/frames.h"
 

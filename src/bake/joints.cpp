@@ -7,24 +7,9 @@
 
 namespace rigc::bake {
 
-using scene::Kind;
 using scene::NodeId;
 using scene::Plug;
 namespace transform = scene::transform;
-
-NodeId transform_above(const scene::Scene& scene, NodeId id) {
-  NodeId at = scene[id].parent;
-  while (at.valid() && !scene::spec(scene[at].kind).is_transform) at = scene[at].parent;
-  return at;
-}
-
-bool is_bone(const scene::Scene& scene, NodeId id) {
-  for (NodeId at = id; at.valid(); at = scene[at].parent) {
-    if (scene[at].kind != Kind::joint) return false;
-    if (scene[at].is_skeleton()) return true;
-  }
-  return false;
-}
 
 std::vector<bool> animated_nodes(const scene::Scene& scene,
                                  const std::vector<eval::ClipInput>& inputs) {

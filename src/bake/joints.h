@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What bake and transfer ask of a scene's joints: where they hang, and what moves them.
+// What bake and transfer ask of a scene's joints: what moves them.
 // Test: tests/bake/bodies_test.cpp, tests/bake/transfer_test.cpp
 #pragma once
 
@@ -10,13 +10,6 @@
 #include "scene/scene.h"
 
 namespace rigc::bake {
-
-/// The nearest transform above a node.
-scene::NodeId transform_above(const scene::Scene& scene, scene::NodeId id);
-
-/// A joint of the skeleton, or one that a command hung under bones; not a helper among the
-/// controls.
-bool is_bone(const scene::Scene& scene, scene::NodeId id);
 
 /// By scene node, whether the clip has a channel on its transform.
 std::vector<bool> animated_nodes(const scene::Scene& scene,

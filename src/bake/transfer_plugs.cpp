@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "bake/joints.h"
 #include "bake/transfer_targets.h"
 #include "eval/rules.h"
+#include "scene/hierarchy.h"
 
 namespace rigc::bake {
 namespace {
@@ -60,7 +60,7 @@ std::vector<Plug> needs_of(const scene::Scene& scene, const Plug& plug) {
     for (const std::uint16_t own : {transform::kTranslate, transform::kRotation, transform::kScale})
       out.push_back({plug.node, own});
   }
-  const NodeId above = transform_above(scene, plug.node);
+  const NodeId above = scene::transform_above(scene, plug.node);
   if (above.valid()) out.push_back({above, transform::kWorld});
   return out;
 }

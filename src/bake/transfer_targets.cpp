@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bake/joints.h"
+#include "scene/hierarchy.h"
 
 namespace rigc::bake {
 namespace {
@@ -48,13 +49,13 @@ class Finder {
  private:
   Standing standing(NodeId id) const {
     if (!standings_.empty()) return standings_[id.index];
-    return {transform_above(scene_, id), {}, scene_.local(id)};
+    return {scene::transform_above(scene_, id), {}, scene_.local(id)};
   }
 
   /// What hangs under a control in the file goes where that goes.
   bool is_target(NodeId id) const {
     for (NodeId at = id; at.valid(); at = standing(at).base)
-      if (!is_bone(scene_, at) || nodes_[at.index] < 0) return false;
+      if (!scene::is_bone(scene_, at) || nodes_[at.index] < 0) return false;
     return true;
   }
 
@@ -68,8 +69,8 @@ class Finder {
   void add(NodeId id) {
     Aim aim{id, -1, true, standing(id)};
     if (aim.standing.base.valid()) aim.base = places_[aim.standing.base.index];
-    aim.direct =
-        aim.standing.base == transform_above(scene_, id) && aim.standing.between == math::Affine{};
+    aim.direct = aim.standing.base == scene::transform_above(scene_, id) &&
+                 aim.standing.between == math::Affine{};
     aim.translation = curve(id, anim::Path::translation);
     aim.rotation = curve(id, anim::Path::rotation);
     aim.scale = curve(id, anim::Path::scale);
@@ -163,7 +164,7 @@ Noise::Noise(const scene::Scene& scene, const std::vector<Aim>& aims) : scene_(s
 
 double Noise::of(NodeId id, anim::Path path) const {
   if (path != anim::Path::translation) return kNoise;
-  const NodeId above = transform_above(scene_, id);
+  const NodeId above = scene::transform_above(scene_, id);
   const double scale = above.valid() ? math::length(scene_.rest_world(above).linear.x) : 1;
   return kNoise *
          std::max(size_ / std::max(scale, 1e-30), math::length(scene_.local(id).translation));

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -38,11 +37,12 @@ class Threads::Loop {
  private:
   /// Before each item, because threads of other loops come free.
   void recruit() {
-    while (next_ < count_ && helpers_.size() + 1 < count_ && threads_.take_spare()) {
+    while (!refused_ && next_ < count_ && helpers_.size() + 1 < count_ && threads_.take_spare()) {
       try {
         helpers_.emplace_back([this] { help(); });
-      } catch (const std::system_error&) {
-        return;  // no more threads to be had: those that are there do it all
+      } catch (const std::exception&) {
+        refused_ = true;  // no more threads to be had: those that are there do it all
+        ++threads_.spare_;
       }
     }
   }
@@ -78,6 +78,7 @@ class Threads::Loop {
   trace::Recorder* const recorder_ = trace::current();
   std::atomic<std::size_t> next_{0};
   std::vector<std::thread> helpers_;
+  bool refused_ = false;  // by the system: another thread
   std::mutex mutex_;
   std::exception_ptr failure_;
   std::size_t failed_ = 0;

@@ -34,14 +34,15 @@ std::vector<ThreadEvents> Recorder::threads() const {
   return out;
 }
 
-Attach::Attach(Recorder* recorder) : before_(detail::attached) {
-  if (recorder) {
-    own_ = new detail::Attached{*recorder, {}, 0};
+Attach::Attach(Recorder* recorder)
+    : before_(detail::attached),
+      own_(recorder ? std::optional(detail::Attached{*recorder, {}, 0}) : std::nullopt) {
+  if (own_) {
     const std::lock_guard lock(recorder->mutex_);
     while (!recorder->numbers_.insert(own_->thread.number).second) ++own_->thread.number;
     own_->thread.begin = recorder->now();
   }
-  detail::attached = own_;
+  detail::attached = own_ ? &*own_ : nullptr;
 }
 
 Attach::~Attach() {
@@ -49,12 +50,9 @@ Attach::~Attach() {
   if (!own_) return;
   Recorder& recorder = own_->recorder;
   own_->thread.end = recorder.now();
-  {
-    const std::lock_guard lock(recorder.mutex_);
-    recorder.numbers_.erase(own_->thread.number);
-    recorder.threads_.push_back(std::move(own_->thread));
-  }
-  delete own_;
+  const std::lock_guard lock(recorder.mutex_);
+  recorder.numbers_.erase(own_->thread.number);
+  recorder.threads_.push_back(std::move(own_->thread));
 }
 
 Recorder* current() { return detail::attached ? &detail::attached->recorder : nullptr; }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -78,7 +79,7 @@ class Attach {
 
  private:
   detail::Attached* before_;
-  detail::Attached* own_ = nullptr;
+  std::optional<detail::Attached> own_;
 };
 
 /// Where spans of this thread go, for the threads that it starts; null: nowhere.
@@ -107,8 +108,14 @@ class Span {
   std::size_t index_ = 0;
 };
 
-/// The Chrome trace event format: chrome://tracing and Perfetto open it.
-std::string as_json(const std::vector<ThreadEvents>& threads);
+/// What else is to be known of a run: ("instruction set", "avx2").
+struct Fact {
+  std::string name, value;
+};
+
+/// The Chrome trace event format: chrome://tracing and Perfetto open it and show the facts among
+/// the metadata.
+std::string as_json(const std::vector<ThreadEvents>& threads, const std::vector<Fact>& facts = {});
 
 /// Time by stage, each below the one around it, and by module. Shares are of the time of all
 /// threads.

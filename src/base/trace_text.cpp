@@ -113,9 +113,11 @@ class Table {
 
 }  // namespace
 
-std::string as_json(const std::vector<ThreadEvents>& threads) {
+std::string as_json(const std::vector<ThreadEvents>& threads, const std::vector<Fact>& facts) {
   json::Writer w;
-  w.begin_object().member("displayTimeUnit", "ms").key("traceEvents").begin_array();
+  w.begin_object().member("displayTimeUnit", "ms").key("otherData").begin_object();
+  for (const Fact& fact : facts) w.member(fact.name, fact.value);
+  w.end_object().key("traceEvents").begin_array();
   write_name(w, "process_name", 0, "rigc");
   std::set<unsigned> named;
   for (const ThreadEvents& thread : threads) {

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "eval/evaluate.h"
+#include "eval/values.h"
 
 namespace rigc::capi {
 namespace {
@@ -150,7 +151,7 @@ math::Affine Instance::world(int output, std::uint32_t frame) const {
   double n[12];
   eval::get_lane(instance_.output(static_cast<std::size_t>(output)), static_cast<int>(frame), n,
                  12);
-  return {{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}}, {n[9], n[10], n[11]}};
+  return eval::affine_from(n);
 }
 
 template <class Number>

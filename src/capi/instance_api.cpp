@@ -15,6 +15,11 @@ rigc_status with(rigc_instance* instance, bool complete, const Work& work) noexc
   return guarded([&] { return work(instance->instance); });
 }
 
+/// Whether rows of inputs are there, or none are needed.
+bool has_rows(const rigc_instance* instance, const double* rows) {
+  return rows || (instance && instance->program->input_width == 0);
+}
+
 }  // namespace
 
 uint32_t rigc_block_frames(void) { return eval::kLanes; }
@@ -43,7 +48,8 @@ rigc_status rigc_instance_set(rigc_instance* instance, uint32_t frame, uint32_t 
 }
 
 rigc_status rigc_instance_set_rows(rigc_instance* instance, uint32_t frames, const double* values) {
-  return with(instance, values, [&](Instance& it) { return it.set_rows(frames, values); });
+  return with(instance, has_rows(instance, values),
+              [&](Instance& it) { return it.set_rows(frames, values); });
 }
 
 rigc_status rigc_instance_reset(rigc_instance* instance) {
@@ -79,12 +85,12 @@ rigc_status rigc_instance_get_local(rigc_instance* instance, uint32_t frame, uin
 
 rigc_status rigc_instance_evaluate(rigc_instance* instance, size_t frames, const double* inputs,
                                    double* matrices) {
-  return with(instance, inputs && matrices,
+  return with(instance, has_rows(instance, inputs) && matrices,
               [&](Instance& it) { return it.evaluate(frames, inputs, matrices); });
 }
 
 rigc_status rigc_instance_evaluate_f(rigc_instance* instance, size_t frames, const double* inputs,
                                      float* matrices) {
-  return with(instance, inputs && matrices,
+  return with(instance, has_rows(instance, inputs) && matrices,
               [&](Instance& it) { return it.evaluate(frames, inputs, matrices); });
 }

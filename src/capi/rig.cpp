@@ -6,6 +6,7 @@
 
 #include "gltf/rig.h"
 #include "scene/access.h"
+#include "scene/hierarchy.h"
 
 namespace rigc::capi {
 namespace {
@@ -160,26 +161,10 @@ class Maker {
     rig_->channels.push_back(channel);
   }
 
-  /// A joint of the skeleton, or one that a command hung under bones; not a helper among the
-  /// controls.
-  bool is_bone(NodeId id) const {
-    for (NodeId at = id; at.valid(); at = scene()[at].parent) {
-      if (scene()[at].kind != Kind::joint) return false;
-      if (scene()[at].is_skeleton()) return true;
-    }
-    return false;
-  }
-
-  NodeId transform_above(NodeId id) const {
-    NodeId at = scene()[id].parent;
-    while (at.valid() && !scene::spec(scene()[at].kind).is_transform) at = scene()[at].parent;
-    return at;
-  }
-
   void add_joint(NodeId id) {
     const scene::Node& node = scene()[id];
     const auto number = static_cast<std::uint32_t>(rig_->joints.size());
-    Joint joint{id, {}, transform_above(id), {}};
+    Joint joint{id, {}, transform_above(scene(), id), {}};
     if (gltf_node(id) >= 0) {
       joint.base = standings_[id.index].base;
       joint.between = standings_[id.index].between;
@@ -190,7 +175,7 @@ class Maker {
     joint.info.local = keep(node.ids.local);
     joint.info.label = keep(node.ids.label);
     joint.info.node = gltf_node(id);
-    joint.info.is_bone = is_bone(id) ? 1 : 0;
+    joint.info.is_bone = is_bone(scene(), id) ? 1 : 0;
     copy(built_.rest_world(id), joint.info.rest);
     numbers_[id.index] = static_cast<int>(number);
     rig_->joint_numbers.emplace(identity, number);

@@ -251,7 +251,8 @@ RIGC_EVAL_API const char* rigc_instance_message(const rigc_instance* instance);
 RIGC_EVAL_API rigc_status rigc_instance_set(rigc_instance* instance, uint32_t frame,
                                             uint32_t control, uint32_t channel,
                                             const double* values);
-/// Sets every input in frames 0 to `frames` - 1 of the block. `values`: [frames][input_width].
+/// Sets every input in frames 0 to `frames` - 1 of the block. `values`: [frames][input_width]; may
+/// be null where the program has no inputs.
 RIGC_EVAL_API rigc_status rigc_instance_set_rows(rigc_instance* instance, uint32_t frames,
                                                  const double* values);
 /// Every input as it was when the instance was made.
@@ -283,9 +284,10 @@ RIGC_EVAL_API rigc_status rigc_instance_get_local(rigc_instance* instance, uint3
                                                   uint32_t joint, rigc_trs* local);
 
 /// Any number of frames, block by block: set_rows, run, get_worlds. `inputs`:
-/// [frames][input_width], `matrices`: [frames][joint_count][16]. Stops at the first block with a
-/// value that cannot be set; matrices of earlier ones are there. Joints whose matrix is not finite
-/// have zeros, all others what they should have, and the result is RIGC_ERROR_NOT_FINITE.
+/// [frames][input_width], null as there, `matrices`: [frames][joint_count][16]. Stops at the first
+/// block with a value that cannot be set; matrices of earlier ones are there. Joints whose matrix
+/// is not finite have zeros, all others what they should have, and the result is
+/// RIGC_ERROR_NOT_FINITE.
 RIGC_EVAL_API rigc_status rigc_instance_evaluate(rigc_instance* instance, size_t frames,
                                                  const double* inputs, double* matrices);
 RIGC_EVAL_API rigc_status rigc_instance_evaluate_f(rigc_instance* instance, size_t frames,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reads `parameters:` of a descriptor: frames and parameters in the order in which editors show
-// them. Test: tests/catalog/parameters_test.cpp
+// them. Test: tests/catalog/descriptor_test.cpp
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -19,6 +19,7 @@
 #include "eval/schedule.h"
 #include "eval/values.h"
 #include "eval/worlds.h"
+#include "scene/hierarchy.h"
 
 namespace rigc::eval {
 
@@ -284,19 +285,11 @@ class Compiler {
     return {place.euler ? Step::to_euler : Step::alias, {block}, place.offset, place.width};
   }
 
-  // A parent that is no transform has no place in space; what it hangs under counts.
-  std::optional<NodeId> transform_above(NodeId node) const {
-    for (NodeId at = scene_[node].parent; at.valid(); at = scene_[at].parent) {
-      if (is_transform(at)) return at;
-    }
-    return std::nullopt;
-  }
-
   Plan plan_world(const Plug& plug) const {
-    const auto above = transform_above(plug.node);
+    const NodeId above = transform_above(scene_, plug.node);
     if (plug.attribute == transform::kParent) {
-      if (!above) return {};
-      return alias({{*above, transform::kWorld}}, 0, 12);
+      if (!above.valid()) return {};
+      return alias({{above, transform::kWorld}}, 0, 12);
     }
     Plan plan{Step::compose,
               {{{plug.node, transform::kTranslate}},
@@ -304,7 +297,7 @@ class Compiler {
                {{plug.node, transform::kScale}}},
               0,
               12};
-    if (above) plan.needs.push_back({{*above, transform::kWorld}});
+    if (above.valid()) plan.needs.push_back({{above, transform::kWorld}});
     return plan;
   }
 

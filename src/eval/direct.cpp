@@ -2,11 +2,11 @@
 // Driven worlds. Test: tests/eval/direct_test.cpp
 #include "eval/direct.h"
 
-#include <array>
 #include <cmath>
 #include <vector>
 
 #include "eval/similarity.h"
+#include "eval/values.h"
 
 namespace rigc::eval {
 
@@ -57,9 +57,7 @@ std::optional<std::vector<Target>> sources_of(const Emitter& emitter, const Defi
   if (data[1] != 0) return std::nullopt;
   std::vector<Target> sources;
   for (std::size_t i = 0; 2 + 2 * i < arguments.size(); ++i) {
-    const std::span<const double> n = data.subspan(2 + 12 * i, 12);
-    const math::Affine offset{{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}},
-                              {n[9], n[10], n[11]}};
+    const math::Affine offset = affine_from(data.data() + 2 + 12 * i);
     const double scale = emitter.scale(arguments[1 + 2 * i]);
     if (scale == 0 || !spans_space(offset.linear)) return std::nullopt;
     const math::Trs parts = math::decompose(offset);
@@ -80,8 +78,7 @@ std::optional<Target> blend(Emitter& emitter, const std::vector<Target>& sources
     const Target& s = sources[i];
     if (!same_size(s.size * s.scale, size)) return std::nullopt;
     arguments.insert(arguments.end(), {s.matrix, weights[i]});
-    for (const math::Vec3& column : {s.rotation.x, s.rotation.y, s.rotation.z})
-      data.insert(data.end(), {column.x / s.scale, column.y / s.scale, column.z / s.scale});
+    for (const double n : columns_of(s.rotation)) data.push_back(n / s.scale);
     data.insert(data.end(), {s.origin.x, s.origin.y, s.origin.z});
   }
   const Operand mean = emitter.emit(Op::blend, arguments, data, 12, node);
@@ -110,8 +107,7 @@ std::optional<Operand> constrained(Emitter& emitter, const Driven& driven) {
   if (!source) return std::nullopt;
   math::Vec3 size = source->size;
   if (!scale_too) {
-    const std::span<const double> n = emitter.numbers(p.scale);
-    size = math::Vec3{n[0], n[1], n[2]} * (driven.parent_scale / source->scale);
+    size = vec3_from(emitter.numbers(p.scale).data()) * (driven.parent_scale / source->scale);
   }
   const math::Mat3 linear = scaled(source->rotation, size);
   const Operand& m = source->matrix;
@@ -129,12 +125,12 @@ std::optional<Operand> aimed(Emitter& emitter, const Driven& driven) {
   const std::span<const Operand> arguments = emitter.arguments(d);
   if (p.rotation.offset != 0 || !emitter.is_constant(p.scale)) return std::nullopt;
   if (arguments[1] != p.translate) return std::nullopt;
-  const std::span<const double> n = emitter.numbers(p.scale), of_aim = emitter.data(d);
+  const std::span<const double> of_aim = emitter.data(d);
   const math::Quat offset{of_aim[2], of_aim[3], of_aim[4], of_aim[5]};
-  const math::Mat3 m =
-      scaled(math::matrix(offset), math::Vec3{n[0], n[1], n[2]} * driven.parent_scale);
-  const std::array<double, 11> data{of_aim[0], of_aim[1], m.x.x, m.x.y, m.x.z, m.y.x,
-                                    m.y.y,     m.y.z,     m.z.x, m.z.y, m.z.z};
+  const math::Vec3 scale = vec3_from(emitter.numbers(p.scale).data());
+  const auto linear = columns_of(scaled(math::matrix(offset), scale * driven.parent_scale));
+  std::vector<double> data{of_aim[0], of_aim[1]};
+  data.insert(data.end(), linear.begin(), linear.end());
   const std::vector<Operand> same(arguments.begin(), arguments.end());
   return emitter.emit(Op::aim_world, same, data, 12, driven.node);
 }
@@ -148,7 +144,7 @@ std::optional<Operand> pointed(Emitter& emitter, const Driven& driven) {
     return std::nullopt;
   const std::span<const double> table = emitter.data(d);
   const bool point = table[1] != 0;
-  const math::Vec3 offset{table[11], table[12], table[13]};
+  const math::Vec3 offset = vec3_from(table.data() + 11);
   // That of a point constraint lies in the parent's space.
   if (point && offset != math::Vec3{}) return std::nullopt;
   const Operand target = emitter.arguments(d)[1];

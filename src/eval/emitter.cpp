@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "eval/similarity.h"
+#include "eval/values.h"
 
 namespace rigc::eval {
 
@@ -25,20 +26,10 @@ bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
-math::Affine matrix_of(std::span<const double> n) {
-  return {{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}}, {n[9], n[10], n[11]}};
-}
-
-math::Mat3 linear_of(std::span<const double> n) {
-  return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}};
-}
-
 double even_scale(std::span<const double> xyz) {
   return xyz[0] > 0 && xyz[0] == xyz[1] && xyz[1] == xyz[2] ? xyz[0] : 0;
 }
 
-// Beyond these, products of a few scales may overflow or vanish.
-constexpr double kLeastScale = 1e-30, kMostScale = 1e30;
 // The data of what computes its own axes: where they lie in it is in kernels/table.h.
 constexpr std::size_t kAimWorldLinear = 2;
 
@@ -84,7 +75,9 @@ std::span<const double> Emitter::numbers(const Operand& constant) const {
   return data(definition(constant)).subspan(constant.offset, constant.width);
 }
 
-math::Affine Emitter::matrix(const Operand& constant) const { return matrix_of(numbers(constant)); }
+math::Affine Emitter::matrix(const Operand& constant) const {
+  return affine_from(numbers(constant).data());
+}
 
 std::uint32_t Emitter::unify() {
   const auto newest = static_cast<std::uint32_t>(values_.size() - 1);
@@ -115,11 +108,7 @@ Operand Emitter::constant(std::span<const double> numbers) {
   return whole(unify());
 }
 
-Operand Emitter::constant_matrix(const math::Affine& a) {
-  const math::Mat3& m = a.linear;
-  return constant({m.x.x, m.x.y, m.x.z, m.y.x, m.y.y, m.y.z, m.z.x, m.z.y, m.z.z, a.origin.x,
-                   a.origin.y, a.origin.z});
-}
+Operand Emitter::constant_matrix(const math::Affine& a) { return constant(columns_of(a)); }
 
 Operand Emitter::input(std::span<const double> initial) {
   Definition d;
@@ -186,12 +175,12 @@ double Emitter::scale_of_newest() const {
     case Op::multiply:
       return scale(a[0]) * scale(a[1]);
     case Op::hang:
-      return scale(a[1]) * uniform_scale(linear_of(data(d)));
+      return scale(a[1]) * uniform_scale(mat3_from(data(d).data()));
     case Op::hang_straight:
     case Op::place:
       return scale(a[1]);
     case Op::aim_world:
-      return uniform_scale(linear_of(data(d).subspan(kAimWorldLinear)));
+      return uniform_scale(mat3_from(data(d).data() + kAimWorldLinear));
     default:
       return 0;
   }

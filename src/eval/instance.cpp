@@ -6,28 +6,24 @@
 namespace rigc::eval {
 
 Instance::Instance(const Program& program, Isa isa)
-    : program_(program),
-      isa_(isa),
-      registers_(static_cast<std::size_t>(program.rows) * kLanes, 0.0) {
-  for (const Program::Constant& c : program.constants) {
-    double* at = registers_.data() + static_cast<std::size_t>(c.row) * kLanes;
-    for (int lane = 0; lane < kLanes; ++lane) at[lane] = c.value;
-  }
+    : program_(program), kernels_(kernels(isa)), rows_(program.rows) {
+  for (const Program::Constant& c : program.constants)
+    for (double& lane : rows_[c.row].lanes) lane = c.value;
 }
 
-double* Instance::input(std::size_t index) {
-  return registers_.data() + static_cast<std::size_t>(program_.inputs[index].row) * kLanes;
-}
+double* Instance::input(std::size_t index) { return rows_[program_.inputs[index].row].lanes; }
 
 const double* Instance::output(std::size_t index) const {
-  return registers_.data() + static_cast<std::size_t>(program_.outputs[index].row) * kLanes;
+  return rows_[program_.outputs[index].row].lanes;
 }
 
 void Instance::run() {
+  double* registers = rows_.empty() ? nullptr : rows_[0].lanes;
   for (const Instruction& i : program_.instructions) {
-    row(i.op, isa_)
-        .kernel({registers_.data(), i.out, program_.arguments.data() + i.first_argument,
-                 i.argument_count, program_.data.data() + i.data});
+    const Register* arguments = program_.arguments.data() + i.first_argument;
+    const double* data = program_.data.data() + i.data;
+    kernels_[static_cast<std::size_t>(i.op)].kernel(
+        {registers, i.out, arguments, i.argument_count, data});
   }
 }
 

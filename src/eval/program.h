@@ -24,6 +24,7 @@ struct Request {
 };
 
 enum class Op : std::uint8_t;  // kernels/table.h
+struct KernelRow;
 
 struct Instruction {
   Op op;
@@ -71,9 +72,14 @@ class Instance {
   void run();
 
  private:
+  /// A line of the cache each, so that no pack lies across two.
+  struct alignas(sizeof(double) * kLanes) Row {
+    double lanes[kLanes] = {};
+  };
+
   const Program& program_;
-  Isa isa_;
-  std::vector<double> registers_;
+  const KernelRow* kernels_;
+  std::vector<Row> rows_;
 };
 
 }  // namespace rigc::eval

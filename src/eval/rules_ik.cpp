@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rules of the IK solvers. Test: tests/eval/compile_test.cpp
 #include <algorithm>
+#include <span>
 
 #include <fmt/format.h>
 #include "eval/kernels/table.h"
@@ -42,11 +43,13 @@ std::optional<Operand> two_bone_emit(Emitter& emitter, const scene::Scene& scene
   append(data, scene, node, ik2::kOffsets);
   append(data, scene, node, ik2::kNormal);
   std::vector<Operand> nine(arguments.begin(), arguments.begin() + kTwoBoneArguments);
-  if (arguments.size() > kTwoBoneArguments) {
+  const auto turns = std::span(arguments).subspan(std::min(arguments.size(), kTwoBoneArguments));
+  const bool turned = std::any_of(turns.begin(), turns.end(), [&](const Operand& turn) {
+    return !emitter.is_constant(turn) || emitter.numbers(turn)[0] != 0;
+  });
+  if (turned) {
     Operand& twists = nine[ik2::kTwist];
-    twists = emitter.emit(Op::gather,
-                          {twists, arguments[kTwoBoneArguments], arguments[kTwoBoneArguments + 1]},
-                          {}, 3, node.index);
+    twists = emitter.emit(Op::gather, {twists, turns[0], turns[1]}, {}, 3, node.index);
   }
   return emitter.emit(Op::ik_two_bone, nine, data, 24, node.index);
 }

@@ -9,8 +9,6 @@ namespace rigc::eval {
 namespace {
 
 constexpr double kTolerance = 1e-12;
-// Beyond these, products of a few scales may overflow or vanish.
-constexpr double kLeastScale = 1e-30, kMostScale = 1e30;
 
 bool near(double a, double b, double size) { return std::fabs(a - b) <= kTolerance * size; }
 

@@ -7,6 +7,9 @@
 
 namespace rigc::eval {
 
+/// Factors beyond these count for nothing: products of a few may overflow or vanish.
+inline constexpr double kLeastScale = 1e-30, kMostScale = 1e30;
+
 /// The factor s > 0 where `m` is s times a rotation, each entry to within 1e-12 s; else 0. A
 /// factor within 1e-12 of 1 is 1.
 double uniform_scale(const math::Mat3& m);

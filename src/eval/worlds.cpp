@@ -2,12 +2,12 @@
 // Products of matrices, constants folded into them. Test: tests/eval/worlds_test.cpp
 #include "eval/worlds.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "eval/direct.h"
 #include "eval/similarity.h"
+#include "eval/values.h"
 
 namespace rigc::eval {
 
@@ -26,12 +26,6 @@ bool is_identity(const math::Mat3& m) {
   }
   return true;
 }
-
-std::array<double, 9> numbers_of(const math::Mat3& m) {
-  return {m.x.x, m.x.y, m.x.z, m.y.x, m.y.y, m.y.z, m.z.x, m.z.y, m.z.z};
-}
-
-math::Vec3 vec3_of(std::span<const double> n) { return {n[0], n[1], n[2]}; }
 
 // The parts of a value that is T * R * S.
 struct Local {
@@ -70,10 +64,9 @@ std::optional<Split> split(const Emitter& emitter, const Operand& matrix) {
   if (d.op != Op::hang && d.op != Op::hang_straight) return std::nullopt;
   const std::span<const Operand> a = emitter.arguments(d);
   if (a[0] != a[1]) return std::nullopt;
-  const std::span<const double> n = emitter.data(d);
-  if (d.op == Op::hang_straight) return Split{a[0], {{}, vec3_of(n)}};
-  const math::Mat3 linear{vec3_of(n), vec3_of(n.subspan(3)), vec3_of(n.subspan(6))};
-  return Split{a[0], {linear, vec3_of(n.subspan(9))}};
+  const double* n = emitter.data(d).data();
+  if (d.op == Op::hang_straight) return Split{a[0], {{}, vec3_from(n)}};
+  return Split{a[0], affine_from(n)};
 }
 
 // a * constant.
@@ -111,14 +104,11 @@ Operand emit_hang(Emitter& emitter, const Operand& parent, const Operand& turned
     const Operand axes = straight ? turned : times_constant(emitter, turned, turn, node);
     return emitter.emit(Op::place, {parent, axes, translate}, {}, 12, node);
   }
-  const math::Vec3 t = vec3_of(emitter.numbers(translate));
+  const math::Vec3 t = vec3_from(emitter.numbers(translate).data());
   if (straight) {
     return emitter.emit(Op::hang_straight, {parent, turned}, std::array{t.x, t.y, t.z}, 12, node);
   }
-  std::array<double, 12> data{};
-  std::ranges::copy(numbers_of(linear), data.begin());
-  for (std::size_t i = 0; i < 3; ++i) data[9 + i] = t[i];
-  return emitter.emit(Op::hang, {parent, turned}, data, 12, node);
+  return emitter.emit(Op::hang, {parent, turned}, columns_of(math::Affine{linear, t}), 12, node);
 }
 
 Operand emit_product(Emitter& emitter, const Operand& a, const Operand& b, std::uint32_t node) {
@@ -143,8 +133,8 @@ Operand emit_product(Emitter& emitter, const Operand& a, const Operand& b, std::
 }
 
 Operand emit_compose(Emitter& emitter, const Placement& p, std::uint32_t node) {
-  const bool unit =
-      emitter.is_constant(p.scale) && vec3_of(emitter.numbers(p.scale)) == math::Vec3{1, 1, 1};
+  const bool unit = emitter.is_constant(p.scale) &&
+                    vec3_from(emitter.numbers(p.scale).data()) == math::Vec3{1, 1, 1};
   if (unit) return emitter.emit(Op::compose_rigid, {p.translate, p.rotation}, {}, 12, node);
   return emitter.emit(Op::compose, {p.translate, p.rotation, p.scale}, {}, 12, node);
 }

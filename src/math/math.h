@@ -66,9 +66,9 @@ Trs decompose(const Affine& a);
 /// is no shear.
 double shear(const Affine& a);
 
-/// Elementary functions: the same bits on every machine, within 2 ulp-ish of the true value (bounds
-/// in elementary.cpp). Every argument gives a finite result: NaN is read as 0, infinities as the
-/// largest number.
+/// Elementary functions: the same bits on every machine, within some ulp of the true value (which
+/// is in math/generic/{trigonometry,exponential}.h). Every argument gives a finite result: NaN is
+/// read as 0, infinities as the largest number.
 double sqrt(double x);  ///< correctly rounded; 0 for negative x
 double cbrt(double x);  ///< of either sign
 double sin(

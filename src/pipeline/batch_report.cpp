@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reports of batches. Test: tests/pipeline/batch_report_test.cpp
+// Reports of batches. Test: tests/pipeline/batch_test.cpp
 #include "pipeline/batch_report.h"
 
 #include <fmt/format.h>

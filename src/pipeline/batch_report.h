@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The report of a batch as JSON (docs/schema/report.schema.json), and going on from one. Only for
-// batch*.cpp. Test: tests/pipeline/batch_report_test.cpp
+// batch*.cpp. Test: tests/pipeline/batch_test.cpp
 #pragma once
 
 #include <map>

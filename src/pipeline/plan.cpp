@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plan: the command list for people, programs and Graphviz. Test: tests/pipeline/plan_test.cpp
+// Plan: the command list for people, programs and Graphviz. Test: tests/cli/cli_test.cpp
 #include "pipeline/plan.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Plan: the ordered command list with what its selectors resolve to. Test:
-// tests/pipeline/plan_test.cpp
+// tests/cli/cli_test.cpp
 #pragma once
 
 #include <optional>

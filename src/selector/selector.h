@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Selectors: nameless references to nodes and plugs. Parse, print, rename; resolving is
-// traversal's. The grammar stands in docs/selectors.md. Test: tests/selector/selector_test.cpp
+// traversal's. The grammar stands in docs/selectors.md. Test: tests/selector/parse_test.cpp
 #pragma once
 
 #include <optional>

@@ -140,7 +140,8 @@ TEST_CASE("base trace: the file is a Chrome trace") {
   threads[1].number = 3;
   threads[0].events[0].begin = 1'234'567;
   threads[0].events[0].end = 2'000'000'000;
-  const auto document = nlohmann::json::parse(trace::as_json(threads));
+  const auto document = nlohmann::json::parse(trace::as_json(threads, {{"machine", "\"loom\""}}));
+  CHECK(document["otherData"] == nlohmann::json{{"machine", "\"loom\""}});
   const auto& events = document["traceEvents"];
   REQUIRE(events.size() == 1 + 2 * (1 + 6));
   CHECK(events[0]["name"] == "process_name");

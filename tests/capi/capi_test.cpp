@@ -289,6 +289,13 @@ TEST_CASE("capi: fewer inputs and joints give the same for what is left") {
   options.input_count = 0;  // a rig that stands still
   const ProgramHandle none = program(rig.get(), &options);
   CHECK(rigc_program_input_width(none.get()) == 0);
+  const InstanceHandle still = instance(none.get());
+  double twice[2 * 32];
+  REQUIRE(rigc_instance_set_rows(still.get(), 1, nullptr) == RIGC_OK);
+  REQUIRE(rigc_instance_run(still.get()) == RIGC_OK);
+  REQUIRE(rigc_instance_get_worlds(still.get(), 0, matrices) == RIGC_OK);
+  REQUIRE(rigc_instance_evaluate(still.get(), 2, nullptr, twice) == RIGC_OK);
+  for (int k = 0; k < 64; ++k) CHECK(twice[k] == matrices[k % 32]);
 }
 
 TEST_CASE("capi: local transforms put on the file's nodes give the worlds") {

@@ -12,6 +12,7 @@
 
 #include "cli/clip_helpers.h"
 #include "cli/process_helpers.h"
+#include "eval/isa.h"
 
 namespace fs = std::filesystem;
 using rigc::test::animated;
@@ -115,6 +116,23 @@ TEST_CASE("cli trace: a build's stages and commands, and the same rig") {
   CHECK((*command)["args"]["joint"] == "tip");
   for (const char* line : {"stage ", "run commands ", "total ", "module ", "control "})
     CHECK_MESSAGE(timed.err.find(line) != std::string::npos, line);
+}
+
+TEST_CASE("cli trace: which instruction set ran, and the same file with each") {
+  const fs::path folder = studio("trace_isa");
+  std::set<std::string> rigs;
+  for (const rigc::eval::Isa isa : rigc::eval::available_isas()) {
+    const std::string name(rigc::eval::name(isa));
+    const Outcome timed =
+        run_rigc({"build", "studio/lamp.yaml", "-o", "x.glb", "--trace", "t.json", "--time"},
+                 {folder, {{"RIGC_ISA", name}}});
+    REQUIRE(timed.status == 0);
+    CHECK(timed.err.find("\ninstruction set: " + name + "\n") != std::string::npos);
+    const auto trace = nlohmann::json::parse(file_text(folder / "t.json"));
+    CHECK(trace["otherData"]["instruction set"] == name);
+    rigs.insert(file_text(folder / "x.glb"));
+  }
+  CHECK(rigs.size() == 1);
 }
 
 TEST_CASE("cli trace: a build on a model names how it was fitted") {

@@ -3,12 +3,14 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <sstream>
 #include <string>
 
 #include "base/json.h"
 #include "pipeline/plan.h"
 #include "tests/pipeline/door_helpers.h"
+#include "tests/pipeline/shot_helpers.h"
 
 namespace rigc {
 namespace {
@@ -83,6 +85,35 @@ TEST_CASE("plan program: as JSON") {
   }
   CHECK(programs[0]["outputs"].size() == 76);
   CHECK(*programs[0]["bytes"].integer() == *programs[0]["rows"].integer() * 64);
+}
+
+// The text between a line of three backticks with `language` that follows `from`, and the next.
+std::string block_of(const std::string& page, const std::string& language, std::size_t from = 0) {
+  const std::string fence = "\n```";
+  const std::size_t opened = page.find(fence + language + "\n", from);
+  REQUIRE(opened != std::string::npos);
+  const std::size_t begin = opened + fence.size() + language.size() + 1;
+  return page.substr(begin, page.find(fence, begin) + 1 - begin);
+}
+
+TEST_CASE("plan program: docs/evaluation.md shows the program of its template") {
+  std::ifstream in(std::string(RIGC_SOURCE_DIR) + "/docs/evaluation.md");
+  const std::string page{std::istreambuf_iterator<char>(in), {}};
+  const std::string path = std::string(RIGC_TEST_OUT) + "/desk.yaml";
+  test::write_text(path, block_of(page, "yaml"));
+  std::string text = program_of(path);
+  for (auto at = text.find(path); at != std::string::npos; at = text.find(path))
+    text.replace(at, path.size(), "desk.yaml");
+  std::size_t seen = 0;
+  int lines = 0;
+  for (const std::string& line : lines_of(block_of(page, "", page.find("\n```\n$ rigc plan")))) {
+    if (line.starts_with("$") || line == "...") continue;
+    INFO(line);
+    seen = text.find(line + "\n", seen);
+    REQUIRE(seen != std::string::npos);
+    ++lines;
+  }
+  CHECK(lines > 15);
 }
 
 TEST_CASE("plan program: a file without a rig is refused") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kernels that clamp what limits and locks bound. Test: tests/eval/limit_test.cpp
+// Kernels that clamp what limits and locks bound. Test: tests/eval/twins_test.cpp
 #pragma once
 
 #include "eval/kernels/lanes.h"

@@ -64,16 +64,11 @@ struct Remap {
     Real y = points[1] + (x - points[0]) * before;
     for (const double* a = points; a != last; a += kRow) {
       const auto here = x >= a[0];
-      if (none_of(here)) break;
+      if (!any(here)) break;
       const double length = a[kRow] - a[0];
       y = select(here, on_segment(a, a + kRow, (x - a[0]) / length, length), y);
     }
     return select(x >= last[0], last[1] + (x - last[0]) * after, y);
-  }
-
-  template <class C>
-  RIGC_INLINE static bool none_of(C condition) {
-    return !any(condition);
   }
 };
 

@@ -14,12 +14,14 @@ const KernelRow* kernels();
 }
 #endif
 
-const KernelRow& row(Op op, Isa isa) {
-  const KernelRow* rows = baseline::kernels();
+const KernelRow* kernels(Isa isa) {
 #ifdef RIGC_HAS_AVX2
-  if (isa == Isa::avx2) rows = avx2::kernels();
+  if (isa == Isa::avx2) return avx2::kernels();
 #endif
-  return rows[static_cast<std::size_t>(op)];
+  (void)isa;
+  return baseline::kernels();
 }
+
+const KernelRow& row(Op op, Isa isa) { return kernels(isa)[static_cast<std::size_t>(op)]; }
 
 }  // namespace rigc::eval

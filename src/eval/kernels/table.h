@@ -89,6 +89,8 @@ struct KernelRow {
   int arguments;  ///< -1: as many as the instruction says
 };
 
+/// The table of an instruction set, by operation.
+const KernelRow* kernels(Isa isa);
 const KernelRow& row(Op op, Isa isa = default_isa());
 
 /// The most joints that an ik_chain has; checked when a program is compiled.

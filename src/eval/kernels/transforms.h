@@ -27,7 +27,7 @@ struct ComposeRigid {
 struct ComposeUnder {
   RIGC_INLINE static void run(const Lanes& lanes) {
     const Quat above = quat_at(lanes.data() + 3);
-    lanes.put(0, Affine{generic::matrix(above * generic::normalised(lanes.quat(1))),
+    lanes.put(0, Affine{generic::matrix(above * generic::moderate(lanes.quat(1))),
                         rotate(above, lanes.vec3(0)) + vec3_at(lanes.data())});
   }
 };

@@ -73,17 +73,21 @@ RIGC_INLINE QuatOf<R> between(Vec3Of<R> a, Vec3Of<R> b) {
   return select(far, select(both.w < 0.0, -both, both), rest);
 }
 
+/// `q`, or at unit length where the square of its length would overflow or vanish; identity where
+/// it is shorter than 1e-30.
+template <class R>
+RIGC_INLINE QuatOf<R> moderate(QuatOf<R> q) {
+  const R squares = dot(q, q);
+  const auto plain = (squares > 1e-60) & (squares < 1e300);
+  return any(!plain) ? select(plain, q, normalised(q)) : q;
+}
+
 /// Of a quaternion of any length, identity where it is shorter than 1e-30: dividing by the square
 /// of its length takes one division, its length a square root and four.
 template <class R>
 RIGC_INLINE Mat3Of<R> matrix(QuatOf<R> q) {
-  R squares = dot(q, q);
-  const auto plain = (squares > 1e-60) & (squares < 1e300);
-  if (any(!plain)) {
-    q = select(plain, q, normalised(q));
-    squares = dot(q, q);
-  }
-  const R two = 2.0 / squares;
+  q = moderate(q);
+  const R two = 2.0 / dot(q, q);
   const R x = q.x * two, y = q.y * two, z = q.z * two;
   const R xx = q.x * x, yy = q.y * y, zz = q.z * z;
   const R xy = q.x * y, xz = q.x * z, yz = q.y * z;
