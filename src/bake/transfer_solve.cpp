@@ -240,7 +240,7 @@ class Solver {
       if (is_twist(u))
         solution_.numbers[i][frame] = twist(u, pose, known);
       else if (u.plays)
-        solution_.locals[i][frame] = as_written(own(u, played(u, frame), rest));
+        solution_.locals[i][frame] = as_played(u, own(u, played(u, frame), rest));
       else
         solution_.locals[i][frame] = as_written(solve_one(u, pose, known, rest));
     }
@@ -303,6 +303,16 @@ class Solver {
     const math::Quat& q = local.rotation;
     const math::Quat rounded{number(q.x), number(q.y), number(q.z), number(q.w)};
     return {vector(local.translation), math::normalised(rounded), vector(local.scale)};
+  }
+
+  /// The same of a joint that keeps the curves it has: between their keys nothing is rounded.
+  math::Trs as_played(const Unknown& u, const math::Trs& local) const {
+    math::Trs out = as_written(local);
+    const Aim& aim = input_.aims[static_cast<std::size_t>(u.turn_aim)];
+    if (aim.translation) out.translation = local.translation;
+    if (aim.rotation) out.rotation = local.rotation;
+    if (aim.scale) out.scale = local.scale;
+    return out;
   }
 
   const scene::Scene& scene_;
