@@ -31,7 +31,9 @@ void Tidy::operator()(const Unknown& u, std::vector<math::Trs>& locals) const {
 
 void Tidy::settle(const Unknown& u, anim::Path path, std::vector<math::Trs>& locals) const {
   const double noise = noise_.of(u.node, path);
-  for (const math::Trs& still : {scene_.local(u.node), math::Trs(locals.front())}) {
+  std::vector<math::Trs> choices{scene_.local(u.node)};
+  if (!u.plays) choices.push_back(locals.front());  // else its curve stays, as it is
+  for (const math::Trs& still : choices) {
     const bool stays = std::all_of(locals.begin(), locals.end(), [&](const math::Trs& local) {
       return differ(local, still, path) <= noise;
     });
