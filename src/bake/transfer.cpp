@@ -69,7 +69,7 @@ class Run {
   std::optional<Transferred> at(std::vector<double> times, TransferReport& report,
                                 Diagnostics& diagnostics) {
     const std::size_t begun_with = times.size();
-    auto solution = solve_at(times, diagnostics);
+    auto solution = solve_at(times, nullptr, diagnostics);
     std::vector<std::size_t> gaps = all_gaps(times);
     std::vector<GapOff> off(gaps.size());
     while (solution) {
@@ -95,10 +95,11 @@ class Run {
   bool inserts() const { return options_.fps == 0 && options_.tolerance > 0; }
   Threads& threads() { return options_.threads ? *options_.threads : alone_; }
 
-  std::optional<Solution> solve_at(const std::vector<double>& times, Diagnostics& diagnostics) {
+  std::optional<Solution> solve_at(const std::vector<double>& times, const Solution* others,
+                                   Diagnostics& diagnostics) {
     const auto worlds = play(aims_, times);
-    return solve(scene_, {plan_, aims_, worlds, others_, options_.switches, times}, threads(),
-                 diagnostics);
+    return solve(scene_, {plan_, aims_, worlds, others_, options_.switches, times, others},
+                 threads(), diagnostics);
   }
 
   /// Solves at `more` and puts that among `times`. Frames do not depend on each other, but for what
@@ -107,7 +108,7 @@ class Run {
                                    const std::vector<double>& more, Diagnostics& diagnostics) {
     const auto count = static_cast<double>(times.size() + more.size());
     if (!check_frame_count(count, width(), diagnostics)) return std::nullopt;
-    const auto added = solve_at(more, diagnostics);
+    const auto added = solve_at(more, &solution, diagnostics);
     if (!added) return std::nullopt;
     Solution all = merged(scene_, aims_, plan_, solution, times, *added, more);
     times.insert(times.end(), more.begin(), more.end());

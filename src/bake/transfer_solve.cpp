@@ -203,8 +203,11 @@ class Solver {
                        return Worker{*this, instance, first, last};
                      });
     for (std::size_t i = first; i < last; ++i) {
-      tidy_(unknowns_[i], solution_.locals[i]);
-      tidy_(unknowns_[i], solution_.numbers[i]);
+      const Solution* others = input_.others;
+      tidy_.make_continuous(unknowns_[i], solution_.locals[i]);
+      tidy_.settle(unknowns_[i], solution_.locals[i], others ? &others->locals[i] : nullptr);
+      tidy_.make_continuous(unknowns_[i], solution_.numbers[i]);
+      tidy_.settle(unknowns_[i], solution_.numbers[i], others ? &others->numbers[i] : nullptr);
     }
     return true;
   }
@@ -343,8 +346,8 @@ Solution merged(const scene::Scene& scene, const std::vector<Aim>& aims, const T
   for (std::size_t i = 0; i < plan.unknowns.size(); ++i) {
     out.locals.push_back(interleaved(a.locals[i], times_of_a, b.locals[i], times_of_b));
     out.numbers.push_back(interleaved(a.numbers[i], times_of_a, b.numbers[i], times_of_b));
-    tidy(plan.unknowns[i], out.locals.back());
-    tidy(plan.unknowns[i], out.numbers.back());
+    tidy.make_continuous(plan.unknowns[i], out.locals.back());
+    tidy.make_continuous(plan.unknowns[i], out.numbers.back());
   }
   return out;
 }

@@ -11,6 +11,12 @@
 
 namespace rigc::bake {
 
+/// [unknowns][frames], rotations continuous.
+struct Solution {
+  std::vector<std::vector<math::Trs>> locals;  ///< empty for twists
+  std::vector<std::vector<double>> numbers;    ///< of twists, empty for others
+};
+
 struct SolveInput {
   const TransferPlan& plan;
   const std::vector<Aim>& aims;
@@ -18,12 +24,7 @@ struct SolveInput {
   const std::vector<eval::ClipInput>& clip;              ///< what else the clip moves
   const std::vector<SwitchValue>& switches;
   const std::vector<double>& times;  ///< seconds
-};
-
-/// [unknowns][frames], rotations continuous.
-struct Solution {
-  std::vector<std::vector<math::Trs>> locals;  ///< empty for twists
-  std::vector<std::vector<double>> numbers;    ///< of twists, empty for others
+  const Solution* others = nullptr;  ///< at other times of the same clip, with which it is merged
 };
 
 std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input, Threads& threads,

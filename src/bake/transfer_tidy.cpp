@@ -19,43 +19,60 @@ void copy(const math::Trs& from, anim::Path path, math::Trs& to) {
 
 }  // namespace
 
-void Tidy::operator()(const Unknown& u, std::vector<math::Trs>& locals) const {
+void Tidy::make_continuous(const Unknown& u, std::vector<math::Trs>& locals) const {
   math::Quat before = scene_.local(u.node).rotation;
   for (math::Trs& local : locals) {
     if (math::dot(before, local.rotation) < 0) local.rotation = -local.rotation;
     before = local.rotation;
   }
-  for (const anim::Path path : kPaths)
-    if (solves(u, path) && !locals.empty()) settle(u, path, locals);
 }
 
-void Tidy::settle(const Unknown& u, anim::Path path, std::vector<math::Trs>& locals) const {
-  const double noise = noise_.of(u.node, path);
-  std::vector<math::Trs> choices{scene_.local(u.node)};
-  if (!u.plays) choices.push_back(locals.front());  // else its curve stays, as it is
+void Tidy::make_continuous(const Unknown& twist, std::vector<double>& numbers) const {
+  if (numbers.empty()) return;
+  const double turn = 360 * twist.per_degree;
+  double before = scene_.number(twist.attribute);
+  for (double& number : numbers) {
+    number += std::nearbyint((before - number) / turn) * turn;
+    number = before = static_cast<double>(static_cast<float>(number));
+  }
+}
+
+void Tidy::settle(const Unknown& u, std::vector<math::Trs>& locals,
+                  const std::vector<math::Trs>* others) const {
+  for (const anim::Path path : kPaths)
+    if (solves(u, path) && !locals.empty()) settle_path(u, path, locals, others);
+}
+
+void Tidy::settle_path(const Unknown& u, anim::Path path, std::vector<math::Trs>& locals,
+                       const std::vector<math::Trs>* others) const {
+  const auto all_near = [&](const std::vector<math::Trs>& list, const math::Trs& still,
+                            double noise) {
+    return std::all_of(list.begin(), list.end(),
+                       [&](const math::Trs& local) { return differ(local, still, path) <= noise; });
+  };
+  std::vector<math::Trs> choices;
+  if (!others) choices.push_back(scene_.local(u.node));
+  if (!others && !u.plays) choices.push_back(locals.front());  // else its curve stays, as it is
+  if (others && all_near(*others, others->front(), 0)) choices.push_back(others->front());
   for (const math::Trs& still : choices) {
-    const bool stays = std::all_of(locals.begin(), locals.end(), [&](const math::Trs& local) {
-      return differ(local, still, path) <= noise;
-    });
-    if (!stays) continue;
+    if (!all_near(locals, still, noise_.of(u.node, path))) continue;
     for (math::Trs& local : locals) copy(still, path, local);
     return;
   }
 }
 
-void Tidy::operator()(const Unknown& twist, std::vector<double>& numbers) const {
+void Tidy::settle(const Unknown& twist, std::vector<double>& numbers,
+                  const std::vector<double>* others) const {
   if (numbers.empty()) return;
-  const double turn = 360 * twist.per_degree, rest = scene_.number(twist.attribute);
-  double before = rest;
-  for (double& number : numbers) {
-    number += std::nearbyint((before - number) / turn) * turn;
-    number = before = static_cast<double>(static_cast<float>(number));
-  }
-  for (const double still : {rest, numbers.front()}) {
-    const bool stays = std::all_of(numbers.begin(), numbers.end(), [&](double number) {
-      return std::abs(number - still) <= kDegreeNoise;
-    });
-    if (!stays) continue;
+  const auto all_near = [](const std::vector<double>& list, double still, double noise) {
+    return std::all_of(list.begin(), list.end(),
+                       [&](double number) { return std::abs(number - still) <= noise; });
+  };
+  std::vector<double> choices;
+  if (!others) choices = {scene_.number(twist.attribute), numbers.front()};
+  if (others && all_near(*others, others->front(), 0)) choices = {others->front()};
+  for (const double still : choices) {
+    if (!all_near(numbers, still, kDegreeNoise)) continue;
     std::fill(numbers.begin(), numbers.end(), still);
     return;
   }
