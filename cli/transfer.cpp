@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// rigc transfer: clips on joints become clips on controls. Test: tests/cli/cli_test.cpp
+// rigc transfer: clips on joints become clips on controls. Test: tests/cli/transfer_test.cpp
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "base/text.h"
 #include "cli/command.h"
@@ -10,6 +12,9 @@
 namespace rigc::cli {
 namespace {
 
+/// Joints that the text names.
+constexpr std::size_t kNamed = 4;
+
 class Transfer final : public Command {
  public:
   std::string name() const override { return "transfer"; }
@@ -18,7 +23,8 @@ class Transfer final : public Command {
   }
   std::vector<std::string> examples() const override {
     return {"rigc transfer hero.glb -o shot.glb",
-            "rigc transfer hero.glb -o shot.glb --clip walk --limb leg_l=ik --limb leg_r=ik"};
+            "rigc transfer hero.glb -o shot.glb --clip walk --limb leg_l=ik --limb leg_r=ik",
+            "rigc transfer hero.glb -o shot.glb --limb all=ik --tolerance 0.1"};
   }
   void declare(Options& options) override {
     options.positional("FILE", request_.file, true, "Rig file with clips on its joints");
@@ -29,6 +35,9 @@ class Transfer final : public Command {
                  "Whether this limb is keyed by IK or FK; all=ik for every one (default: FK)");
     options.text("--fps", "N|source", request_.fps, false,
                  "Frames a second, or source: at the keys' own times (default)");
+    options.number("--tolerance", "MM", tolerance_,
+                   "With --fps source: add keys where a joint would be off by more than this "
+                   "between two of its own, in millimetres (default: 1; 0: none)");
     options.number("--start", "SECONDS", request_.start,
                    "Where to begin (default: the joints' first key)");
     options.number("--end", "SECONDS", request_.end,
@@ -42,33 +51,65 @@ class Transfer final : public Command {
 
  private:
   void transfer(Session& session) {
+    Threads threads;
+    request_.threads = &threads;
+    if (tolerance_) request_.tolerance_mm = *tolerance_;
     const auto done = pipeline::transfer_file(request_, out_, session.diagnostics);
     if (!done) return;
     session.out = session.json ? as_json(*done) : as_text(*done);
   }
 
   static std::string off_as_text(const pipeline::Off& off) {
-    return fmt::format("{:.2g} mm ({:.2g} % of height) at \"{}\", {:.2g} degrees at \"{}\"", off.mm,
-                       off.percent, printable(off.joint), off.degrees, printable(off.turned_joint));
+    return fmt::format(
+        "{} mm ({} % of height; \"{}\" at {:.2f} s), {} degrees (\"{}\" at {:.2f} s)",
+        pipeline::short_number(off.mm), pipeline::short_number(off.percent), printable(off.joint),
+        off.seconds, pipeline::short_number(off.degrees), printable(off.turned_joint),
+        off.turned_seconds);
+  }
+
+  /// The first few names, and how many more there are.
+  static std::string names_as_text(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(names.size(), kNamed); ++i)
+      text += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", printable(names[i]));
+    if (names.size() > kNamed) text += fmt::format(" and {} more", names.size() - kNamed);
+    return text;
+  }
+
+  static std::string limbs_as_text(const std::vector<pipeline::TransferredLimb>& limbs) {
+    std::string by_ik, by_fk;
+    for (const pipeline::TransferredLimb& limb : limbs)
+      (limb.ik ? by_ik : by_fk) += " " + printable(limb.group);
+    std::string text;
+    if (!by_ik.empty()) text += "  keyed by IK:" + by_ik + "\n";
+    if (!by_fk.empty()) text += "  keyed by FK:" + by_fk + "\n";
+    return text;
   }
 
   static std::string clip_as_text(const pipeline::TransferredClip& clip) {
     if (clip.passed_through)
       return fmt::format("  \"{}\": as it was (nothing on joints that controls move)\n",
                          printable(clip.name));
-    std::string text = fmt::format("  \"{}\": {} frames, {} controls, {} channels, {} keys\n",
-                                   printable(clip.name), clip.report.frames, clip.report.controls,
-                                   clip.report.channels, clip.report.keys);
-    text += "    off by up to " + off_as_text(clip.at_keys) + "\n";
-    if (clip.report.frames > 1) text += "    between keys " + off_as_text(clip.between) + "\n";
-    for (const std::string& joint : clip.kept)
-      text += fmt::format("    joint \"{}\" keeps channels of its own\n", printable(joint));
+    const bake::TransferReport& report = clip.report;
+    const std::string inserted =
+        report.inserted == 0 ? "" : fmt::format(" ({} added)", report.inserted);
+    std::string text = fmt::format("  \"{}\": {} frames{}, {} controls, {} channels, {} keys\n",
+                                   printable(clip.name), report.frames, inserted, report.controls,
+                                   report.channels, report.keys);
+    text += "    off at keys by up to " + off_as_text(clip.at_keys) + "\n";
+    if (report.frames > 1) text += "    between keys by up to " + off_as_text(clip.between) + "\n";
+    if (!clip.kept.empty())
+      text +=
+          "    channels stay for what controls do not say of " + names_as_text(clip.kept) + "\n";
+    if (!clip.untouched.empty())
+      text += "    no control moves " + names_as_text(clip.untouched) + ": as they were\n";
     return text;
   }
 
   std::string as_text(const pipeline::TransferredFile& done) const {
     std::string text = fmt::format("{}: {} clip{}, {} KB\n", printable(out_), done.clips.size(),
                                    done.clips.size() == 1 ? "" : "s", (done.bytes + 1023) / 1024);
+    text += limbs_as_text(done.limbs);
     for (const pipeline::TransferredClip& clip : done.clips) text += clip_as_text(clip);
     return text;
   }
@@ -79,9 +120,31 @@ class Transfer final : public Command {
         .member("mm", off.mm)
         .member("percent_of_height", off.percent)
         .member("joint", off.joint)
+        .member("seconds", off.seconds)
         .member("degrees", off.degrees)
         .member("turned_joint", off.turned_joint)
+        .member("turned_seconds", off.turned_seconds)
         .end_object();
+  }
+
+  static void write_names(json::Writer& w, const char* key, const std::vector<std::string>& names) {
+    w.key(key).begin_array();
+    for (const std::string& name : names) w.value(name);
+    w.end_array();
+  }
+
+  static void write_clip(json::Writer& w, const pipeline::TransferredClip& clip) {
+    w.begin_object().member("name", clip.name).member("passed_through", clip.passed_through);
+    w.member("frames", clip.report.frames)
+        .member("frames_added", clip.report.inserted)
+        .member("controls", clip.report.controls)
+        .member("channels", clip.report.channels)
+        .member("keys", clip.report.keys);
+    write_off(w, "at_keys", clip.at_keys);
+    write_off(w, "between_keys", clip.between);
+    write_names(w, "kept_joints", clip.kept);
+    write_names(w, "untouched_joints", clip.untouched);
+    w.end_object();
   }
 
   std::string as_json(const pipeline::TransferredFile& done) const {
@@ -89,25 +152,18 @@ class Transfer final : public Command {
     w.begin_object()
         .member("file", out_)
         .member("bytes", static_cast<std::size_t>(done.bytes))
-        .key("clips")
-        .begin_array();
-    for (const pipeline::TransferredClip& clip : done.clips) {
-      w.begin_object().member("name", clip.name).member("passed_through", clip.passed_through);
-      w.member("frames", clip.report.frames)
-          .member("controls", clip.report.controls)
-          .member("channels", clip.report.channels)
-          .member("keys", clip.report.keys);
-      write_off(w, "at_keys", clip.at_keys);
-      write_off(w, "between_keys", clip.between);
-      w.key("kept_joints").begin_array();
-      for (const std::string& joint : clip.kept) w.value(joint);
-      w.end_array().end_object();
-    }
+        .key("limbs")
+        .begin_object();
+    for (const pipeline::TransferredLimb& limb : done.limbs)
+      w.member(limb.group, limb.ik ? "ik" : "fk");
+    w.end_object().key("clips").begin_array();
+    for (const pipeline::TransferredClip& clip : done.clips) write_clip(w, clip);
     w.end_array().end_object();
     return w.take() + "\n";
   }
 
   pipeline::TransferRequest request_;
+  std::optional<double> tolerance_;
   std::string out_;
   Timing timing_;
 };

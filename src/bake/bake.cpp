@@ -7,6 +7,7 @@
 
 #include "bake/frames.h"
 #include "bake/insert.h"
+#include "bake/joints.h"
 #include "bake/reduce.h"
 
 namespace rigc::bake {
@@ -22,14 +23,6 @@ anim::Clip clip_of(const std::vector<eval::ClipInput>& inputs) {
     curve = *input.curve;
   }
   return clip;
-}
-
-std::vector<bool> animated_nodes(const scene::Scene& scene,
-                                 const std::vector<eval::ClipInput>& inputs) {
-  std::vector<bool> animated(scene.size(), false);
-  for (const eval::ClipInput& input : inputs)
-    if (input.plug.attribute < scene::transform::kCount) animated[input.plug.node.index] = true;
-  return animated;
 }
 
 std::vector<float> as_floats(const std::vector<double>& times) {

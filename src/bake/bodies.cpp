@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/joints.h"
 #include "scene/hierarchy.h"
 
 namespace rigc::bake {
@@ -30,14 +31,6 @@ bool near(const math::Trs& a, const math::Trs& b) {
          turned < kRounding * kRounding;
 }
 
-/// Whether connections decide a node's transform.
-bool is_driven(const scene::Node& node) {
-  return std::any_of(node.inputs.begin(), node.inputs.end(),
-                     [](const scene::Connection& connection) {
-                       return connection.to.attribute <= transform::kRotate;
-                     });
-}
-
 class Finder {
  public:
   Finder(const scene::Scene& scene, const std::vector<int>& nodes,
@@ -54,19 +47,20 @@ class Finder {
 
   std::vector<Body> find() {
     for (const NodeId id : scene_.nodes())
-      if (is_bone(scene_, id) && nodes_[id.index] >= 0 && gets_channels(id)) add_with_bases(id);
+      if (scene::is_bone(scene_, id) && nodes_[id.index] >= 0 && gets_channels(id))
+        add_with_bases(id);
     return std::move(bodies_);
   }
 
  private:
   Standing standing(NodeId id) const {
     if (!options_.standings.empty()) return options_.standings[id.index];
-    return {transform_above(scene_, id), {}, scene_.local(id)};
+    return {scene::transform_above(scene_, id), {}, scene_.local(id)};
   }
 
   bool is_direct(NodeId id) const {
     const Standing place = standing(id);
-    return place.base == transform_above(scene_, id) && place.between == math::Affine{};
+    return place.base == scene::transform_above(scene_, id) && place.between == math::Affine{};
   }
 
   bool stands_as_scene(NodeId id) const { return near(standing(id).local, scene_.local(id)); }
@@ -75,14 +69,14 @@ class Finder {
     const NodeId base = standing(id).base;
     // What hangs under a control moves with it, connected or not. A limited joint may not play what
     // its own channels say.
-    if (is_driven(scene_[id]) || !is_direct(id) || (base.valid() && !is_bone(scene_, base)))
+    if (is_driven(scene_, id) || !is_direct(id) || (base.valid() && !scene::is_bone(scene_, base)))
       return true;
     return animated_[id.index] && (limited_[id.index] || !stands_as_scene(id));
   }
 
   /// Whether what the file plays for a node that gets no channels is what the scene evaluates.
   bool plays_as_scene(NodeId id) const {
-    if (is_driven(scene_[id]) || !is_direct(id) || !stands_as_scene(id)) return false;
+    if (is_driven(scene_, id) || !is_direct(id) || !stands_as_scene(id)) return false;
     return !animated_[id.index] || scene_[id].kind == scene::Kind::joint || options_.controls_play;
   }
 
@@ -100,7 +94,7 @@ class Finder {
               place.between,
               place.local,
               Body::Source::local,
-              is_bone(scene_, id) && gets_channels(id)};
+              scene::is_bone(scene_, id) && gets_channels(id)};
     const bool base_plays = body.base < 0 || bodies_[static_cast<std::size_t>(body.base)].source !=
                                                  Body::Source::standing;
     const bool follows = base_plays && is_direct(id);

@@ -10,6 +10,7 @@
 #include "anim/clip.h"
 #include "bake/bake.h"
 #include "base/diagnostics.h"
+#include "base/threads.h"
 #include "scene/scene.h"
 
 namespace rigc::bake {
@@ -32,30 +33,41 @@ struct SwitchValue {
 struct TransferOptions {
   /// Frames a second; 0: the union of the keys' times.
   double fps = 0;
+  /// Where fps is 0 there are as many keys between the joints' own as it takes for no joint, and no
+  /// point at the length of its limb from it, to be farther off between two keys than this (rig
+  /// units) beyond what it is at them; 0: none.
+  double tolerance = 0;
   /// Seconds; else of the keys on joints.
   std::optional<double> start, end;
   /// As for a bake.
   std::vector<Standing> standings;
   /// Each gets a key. What is not named stays as the scene has it.
   std::vector<SwitchValue> switches;
+  /// What evaluates ranges of frames; null: the caller's thread alone. The result is the same.
+  Threads* threads = nullptr;
 };
 
 /// Where the rig is farthest from the joints' own clip.
 struct Deviation {
-  double distance = 0;                  ///< between the joint's origins, rig units
-  double angle = 0;                     ///< radians
-  scene::NodeId farthest, most_turned;  ///< invalid: none at all
+  double distance = 0;                         ///< between the joint's origins, rig units
+  double angle = 0;                            ///< radians
+  scene::NodeId farthest, most_turned;         ///< invalid: none at all
+  double farthest_at = 0, most_turned_at = 0;  ///< seconds
 };
 
 struct TransferReport {
   std::size_t joints = 0;  ///< that the clip animates; 0: there was nothing to transfer
   std::size_t frames = 0;
+  std::size_t inserted = 0;  ///< of these, between the joints' own keys
   std::size_t controls = 0;  ///< that got keys, switches included
   std::size_t channels = 0;
   std::size_t keys = 0;
-  std::vector<scene::NodeId> kept;  ///< joints with channels of their own: no control says them
+  /// Joints that keep channels of their own for what no control says of them.
+  std::vector<scene::NodeId> kept;
+  std::vector<scene::NodeId> untouched;  ///< joints that nothing of the rig moves: as they were
+  std::vector<scene::NodeId> replaced;   ///< controls whose keys of before are gone
   Deviation at_keys;
-  Deviation between;  ///< in the middle between two keys
+  Deviation between;  ///< at three times between each two
 };
 
 struct Transferred {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace rigc::bake {
 namespace {
@@ -14,6 +15,18 @@ using math::Vec3;
 /// Sine of the angle between the bones below which the start's joint says the plane of the limb;
 /// above twice of it the bones do.
 constexpr double kStraight = 2e-5;
+
+constexpr std::size_t kAround = 4;
+
+/// The 32-bit floats around a number, the nearest first.
+void floats_around(double x, double (&out)[kAround]) {
+  const auto nearest = static_cast<float>(x);
+  const float up = std::nextafter(nearest, HUGE_VALF), down = std::nextafter(nearest, -HUGE_VALF);
+  const bool is_above = static_cast<double>(nearest) < x;
+  const float beyond = is_above ? std::nextafter(up, HUGE_VALF) : std::nextafter(down, -HUGE_VALF);
+  const float all[kAround] = {nearest, is_above ? up : down, is_above ? down : up, beyond};
+  std::copy(std::begin(all), std::end(all), out);
+}
 
 Vec3 perpendicular_part(Vec3 v, Vec3 unit) { return v - unit * math::dot(v, unit); }
 
@@ -42,19 +55,13 @@ Vec3 rounded_goal(const Bones& bones, const math::Affine& to_point) {
   const auto error_of = [&](Vec3 translation) {
     return std::fabs(math::length(to_point * translation - bones.start) - distance);
   };
-  Vec3 below, above;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto nearest = static_cast<float>(exact[i]);
-    const bool up = static_cast<double>(nearest) < exact[i];
-    below[i] = static_cast<double>(nearest);
-    above[i] = static_cast<double>(std::nextafter(nearest, up ? HUGE_VALF : -HUGE_VALF));
-  }
-  Vec3 best = below;
-  for (unsigned choice = 1; choice < 8; ++choice) {
-    const Vec3 other{choice & 1u ? above.x : below.x, choice & 2u ? above.y : below.y,
-                     choice & 4u ? above.z : below.z};
-    if (error_of(other) < error_of(best)) best = other;
-  }
+  double candidates[3][kAround];
+  for (std::size_t i = 0; i < 3; ++i) floats_around(exact[i], candidates[i]);
+  Vec3 best{candidates[0][0], candidates[1][0], candidates[2][0]};
+  for (const double x : candidates[0])
+    for (const double y : candidates[1])
+      for (const double z : candidates[2])
+        if (error_of({x, y, z}) < error_of(best)) best = {x, y, z};
   return best;
 }
 

@@ -22,7 +22,7 @@ class Levels {
     solved_.assign(scene.size(), false);
     for (const Unknown& unknown : unknowns) {
       solved_[unknown.node.index] = true;
-      if (unknown.rule == Unknown::Rule::twist) attributes_.insert(unknown.attribute);
+      if (is_twist(unknown)) attributes_.insert(unknown.attribute);
       std::vector<Plug>& needs = needs_[unknown.node];  // several unknowns may be on one
       const std::vector<Plug> own = needs_of_unknown(unknown);
       needs.insert(needs.end(), own.begin(), own.end());

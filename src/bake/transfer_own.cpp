@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/joints.h"
 #include "bake/transfer_plan.h"
-#include "bake/transfer_plugs.h"
+#include "scene/hierarchy.h"
 
 namespace rigc::bake {
 namespace {
@@ -78,7 +79,7 @@ class Chooser {
           std::min({std::abs(rest.scale.x), std::abs(rest.scale.y), std::abs(rest.scale.z)});
       return off / std::max(smallest, 1e-30) * reach;
     }
-    const scene::NodeId above = transform_above(scene_, aim(index).id);
+    const scene::NodeId above = scene::transform_above(scene_, aim(index).id);
     return off * (above.valid() ? math::length(scene_.rest_world(above).linear.x) : 1);
   }
 

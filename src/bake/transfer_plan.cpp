@@ -6,11 +6,13 @@
 #include <map>
 #include <set>
 
+#include "bake/joints.h"
 #include "bake/transfer_order.h"
 #include "bake/transfer_own.h"
 #include "bake/transfer_plugs.h"
 #include "base/trace.h"
 #include "eval/evaluate.h"
+#include "scene/hierarchy.h"
 
 namespace rigc::bake {
 namespace {
@@ -71,7 +73,7 @@ class Planner {
   /// Up from a node over transforms that are fixed to their parents, to a control of the file.
   std::optional<Carrier> carrier(NodeId id) const {
     Carrier out{id, {}};
-    for (; out.control.valid(); out.control = transform_above(scene_, out.control)) {
+    for (; out.control.valid(); out.control = scene::transform_above(scene_, out.control)) {
       const Kind kind = scene_[out.control].kind;
       if (kind == Kind::control && nodes_[out.control.index] >= 0) return out;
       const bool fixed = kind != Kind::joint && !is_driven(out.control, transform::kTranslate) &&

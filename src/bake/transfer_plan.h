@@ -45,14 +45,13 @@ struct Unknown {
   double distance = 0;            ///< of the pole from the middle joint, of the target from the eye
 };
 
-inline constexpr anim::Path kPaths[] = {anim::Path::translation, anim::Path::rotation,
-                                        anim::Path::scale};
-
 inline bool solves(const Unknown& u, anim::Path path) {
   return path == anim::Path::translation ? u.moves
          : path == anim::Path::rotation  ? u.turns
                                          : u.scales;
 }
+
+inline bool is_twist(const Unknown& u) { return u.rule == Unknown::Rule::twist; }
 
 struct TransferPlan {
   std::vector<Unknown> unknowns;  ///< by level

@@ -6,6 +6,7 @@
 
 #include "bake/transfer_targets.h"
 #include "eval/rules.h"
+#include "scene/hierarchy.h"
 
 namespace rigc::bake {
 namespace {
@@ -59,7 +60,7 @@ std::vector<Plug> needs_of(const scene::Scene& scene, const Plug& plug) {
     for (const std::uint16_t own : {transform::kTranslate, transform::kRotation, transform::kScale})
       out.push_back({plug.node, own});
   }
-  const NodeId above = transform_above(scene, plug.node);
+  const NodeId above = scene::transform_above(scene, plug.node);
   if (above.valid()) out.push_back({above, transform::kWorld});
   return out;
 }
@@ -75,28 +76,6 @@ std::set<Plug> attributes_behind(const scene::Scene& scene, const std::vector<Pl
     for (const Plug& need : needs_of(scene, plug)) open.push_back(need);
   }
   return found;
-}
-
-bool is_driven(const scene::Scene& scene, const Plug& plug) {
-  const auto& inputs = scene[plug.node].inputs;
-  return std::any_of(inputs.begin(), inputs.end(), [&](const scene::Connection& c) {
-    const bool euler =
-        plug.attribute == transform::kRotation && c.to.attribute == transform::kRotate;
-    return c.to.attribute == plug.attribute || euler;
-  });
-}
-
-bool is_driven(const scene::Scene& scene, NodeId id) {
-  const auto& inputs = scene[id].inputs;
-  return std::any_of(inputs.begin(), inputs.end(), [](const scene::Connection& c) {
-    return c.to.attribute <= transform::kRotate;
-  });
-}
-
-Plug plug_of(NodeId id, anim::Path path) {
-  return {id, path == anim::Path::translation ? transform::kTranslate
-              : path == anim::Path::rotation  ? transform::kRotation
-                                              : transform::kScale};
 }
 
 }  // namespace rigc::bake

@@ -6,17 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/joints.h"
 #include "bake/transfer_limb.h"
 #include "bake/transfer_order.h"
-#include "bake/transfer_plugs.h"
+#include "bake/transfer_tidy.h"
 #include "base/trace.h"
 #include "eval/evaluate.h"
 
 namespace rigc::bake {
 namespace {
-
-/// What counts as rounding in an angle.
-constexpr double kDegreeNoise = 2e-5;
 
 using math::Affine;
 using math::Vec3;
@@ -82,16 +80,15 @@ math::Trs pole(const Unknown& u, const Pose& pose, const Known& known, math::Trs
   return local;
 }
 
-/// Value of the attribute, of those a turn apart the one nearest to the value before.
-double twist(const Unknown& u, const Pose& pose, const Known& known, double before) {
+/// Value of the attribute.
+double twist(const Unknown& u, const Pose& pose, const Known& known) {
   const Bones bones = bones_of(known.limb, pose[u.start], pose[u.middle]);
   const Vec3 side = bent_side(bones, pose[u.start], u.bone_offset);
   const Vec3 bone = u.of_middle ? bones.second : bones.first;
   const Vec3 child = u.of_middle ? bones.second_child : bones.first_child;
   const Affine& joint = pose[u.of_middle ? u.middle : u.start];
   const double degrees = twist_of(bones, side, bone, child, u.joint_offset, joint);
-  const double value = u.at + degrees * u.per_degree, turn = 360 * u.per_degree;
-  return value + std::nearbyint((before - value) / turn) * turn;
+  return u.at + degrees * u.per_degree;
 }
 
 math::Trs look(const Unknown& u, const Pose& pose, const Known& known, math::Trs local) {
@@ -151,18 +148,22 @@ Known read_known(const eval::Instance& instance, const Unknown& u, std::size_t& 
   return known;
 }
 
-void copy(const math::Trs& from, anim::Path path, math::Trs& to) {
-  if (path == anim::Path::translation) to.translation = from.translation;
-  if (path == anim::Path::rotation) to.rotation = from.rotation;
-  if (path == anim::Path::scale) to.scale = from.scale;
+/// Two lists in the order that their times give.
+template <class T>
+std::vector<T> interleaved(const std::vector<T>& a, const std::vector<double>& times_of_a,
+                           const std::vector<T>& b, const std::vector<double>& times_of_b) {
+  std::vector<T> out;
+  for (std::size_t i = 0, k = 0; i < a.size() || k < b.size();) {
+    const bool from_a = k == b.size() || (i < a.size() && times_of_a[i] < times_of_b[k]);
+    out.push_back(from_a ? a[i++] : b[k++]);
+  }
+  return out;
 }
-
-bool is_twist(const Unknown& u) { return u.rule == Unknown::Rule::twist; }
 
 class Solver {
  public:
   Solver(const scene::Scene& scene, const SolveInput& input)
-      : scene_(scene), input_(input), unknowns_(input.plan.unknowns), noise_(scene, input.aims) {
+      : scene_(scene), input_(input), unknowns_(input.plan.unknowns), tidy_(scene, input.aims) {
     solution_.locals.resize(unknowns_.size());
     solution_.numbers.resize(unknowns_.size());
     for (std::size_t i = 0; i < unknowns_.size(); ++i) {
@@ -173,7 +174,23 @@ class Solver {
     }
   }
 
-  bool solve_level(int level, Diagnostics& diagnostics) {
+  /// What the clip moves besides: every level needs it.
+  void sample(Threads& threads) {
+    samples_.resize(input_.clip.size());
+    threads.for_each(samples_.size(), [&](std::size_t i) {
+      const eval::ClipInput& input = input_.clip[i];
+      const auto width = static_cast<std::size_t>(input.curve->width);
+      const bool rotation = input.plug.attribute == transform::kRotation;
+      samples_[i].resize(input_.times.size() * width);
+      for (std::size_t f = 0; f < input_.times.size(); ++f) {
+        double n[4];
+        anim::sample(*input.curve, rotation, input_.times[f], n);
+        std::copy_n(n, width, samples_[i].data() + f * width);
+      }
+    });
+  }
+
+  bool solve_level(int level, Threads& threads, Diagnostics& diagnostics) {
     const auto below = [](const Unknown& u, int at) { return u.level < at; };
     const auto at = [&](int l) {
       return static_cast<std::size_t>(
@@ -182,28 +199,16 @@ class Solver {
     const std::size_t first = at(level), last = at(level + 1);
     const auto program = eval::compile(scene_, request(first, last), diagnostics);
     if (!program) return false;
-    const auto set = [&](eval::Instance& instance, std::size_t frame, int lane) {
-      set_inputs(instance, first, frame, lane);
-    };
-    const auto take = [&](const eval::Instance& instance, std::size_t frame, int lane) {
-      const Pose pose(input_.worlds, frame);
-      std::size_t output = 0;
-      for (std::size_t i = first; i < last; ++i) {
-        const Unknown& u = unknowns_[i];
-        const Known known = read_known(instance, u, output, lane);
-        if (is_twist(u)) {
-          keep_number(i, frame, twist(u, pose, known, number_before(i, frame)));
-          continue;
-        }
-        const math::Trs rest = scene_.local(u.node);
-        keep(i, frame, u.plays ? own(u, played(u, frame), rest) : solve_one(u, pose, known, rest));
-      }
-    };
-    eval::for_frames(*program, input_.times.size(), set, take);
+    eval::for_ranges(*program, input_.times.size(), threads,
+                     [&](eval::Instance& instance, std::size_t) {
+                       return Worker{*this, instance, first, last};
+                     });
     for (std::size_t i = first; i < last; ++i) {
-      if (is_twist(unknowns_[i])) settle_number(i);
-      for (const anim::Path path : kPaths)
-        if (solves(unknowns_[i], path)) settle(i, path);
+      const Solution* others = input_.others;
+      tidy_.make_continuous(unknowns_[i], solution_.locals[i]);
+      tidy_.settle(unknowns_[i], solution_.locals[i], others ? &others->locals[i] : nullptr);
+      tidy_.make_continuous(unknowns_[i], solution_.numbers[i]);
+      tidy_.settle(unknowns_[i], solution_.numbers[i], others ? &others->numbers[i] : nullptr);
     }
     return true;
   }
@@ -211,6 +216,40 @@ class Solver {
   Solution take_solution() { return std::move(solution_); }
 
  private:
+  /// A range of frames for the unknowns `first` to `last`; writes to these frames alone.
+  struct Worker {
+    Solver& solver;
+    eval::Instance& instance;
+    std::size_t first_unknown, last_unknown;
+
+    void set(std::size_t first, int lanes) {
+      for (int lane = 0; lane < lanes; ++lane)
+        solver.set_inputs(instance, first_unknown, first + static_cast<std::size_t>(lane), lane);
+    }
+    void take(std::size_t first, int lanes) {
+      for (int lane = 0; lane < lanes; ++lane)
+        solver.take(instance, first_unknown, last_unknown, first + static_cast<std::size_t>(lane),
+                    lane);
+    }
+  };
+
+  void take(const eval::Instance& instance, std::size_t first, std::size_t last, std::size_t frame,
+            int lane) {
+    const Pose pose(input_.worlds, frame);
+    std::size_t output = 0;
+    for (std::size_t i = first; i < last; ++i) {
+      const Unknown& u = unknowns_[i];
+      const Known known = read_known(instance, u, output, lane);
+      const math::Trs rest = scene_.local(u.node);
+      if (is_twist(u))
+        solution_.numbers[i][frame] = twist(u, pose, known);
+      else if (u.plays)
+        solution_.locals[i][frame] = as_played(u, own(u, played(u, frame), rest));
+      else
+        solution_.locals[i][frame] = as_written(solve_one(u, pose, known, rest));
+    }
+  }
+
   math::Trs played(const Unknown& u, std::size_t frame) const {
     return local_at(input_.aims[static_cast<std::size_t>(u.turn_aim)], input_.times[frame]);
   }
@@ -239,11 +278,10 @@ class Solver {
 
   void set_inputs(eval::Instance& instance, std::size_t count, std::size_t frame, int lane) const {
     std::size_t at = 0;
-    for (const eval::ClipInput& input : input_.clip) {
-      double n[4];
-      const bool rotation = input.plug.attribute == transform::kRotation;
-      anim::sample(*input.curve, rotation, input_.times[frame], n);
-      eval::set_lane(instance.input(at++), lane, n, input.curve->width);
+    for (std::size_t i = 0; i < input_.clip.size(); ++i) {
+      const int width = input_.clip[i].curve->width;
+      const double* n = samples_[i].data() + frame * static_cast<std::size_t>(width);
+      eval::set_lane(instance.input(at++), lane, n, width);
     }
     for (const SwitchValue& value : input_.switches)
       eval::set_lane(instance.input(at++), lane, &value.value, 1);
@@ -262,75 +300,58 @@ class Solver {
     }
   }
 
-  /// What only rounding moves stays, where the scene has it or where it begins: it gets no keys.
-  void settle(std::size_t unknown, anim::Path path) {
-    std::vector<math::Trs>& locals = solution_.locals[unknown];
-    const NodeId node = unknowns_[unknown].node;
-    const double noise = noise_.of(node, path);
-    for (const math::Trs& still : {scene_.local(node), locals.front()}) {
-      const bool stays = std::all_of(locals.begin(), locals.end(), [&](const math::Trs& local) {
-        return differ(local, still, path) <= noise;
-      });
-      if (!stays) continue;
-      for (math::Trs& local : locals) copy(still, path, local);
-      return;
-    }
-  }
-
-  void settle_number(std::size_t unknown) {
-    std::vector<double>& numbers = solution_.numbers[unknown];
-    for (const double still : {scene_.number(unknowns_[unknown].attribute), numbers.front()}) {
-      const bool stays = std::all_of(numbers.begin(), numbers.end(), [&](double number) {
-        return std::abs(number - still) <= kDegreeNoise;
-      });
-      if (!stays) continue;
-      std::fill(numbers.begin(), numbers.end(), still);
-      return;
-    }
-  }
-
-  double number_before(std::size_t unknown, std::size_t frame) const {
-    return frame == 0 ? scene_.number(unknowns_[unknown].attribute)
-                      : solution_.numbers[unknown][frame - 1];
-  }
-
-  void keep_number(std::size_t unknown, std::size_t frame, double number) {
-    solution_.numbers[unknown][frame] = static_cast<double>(static_cast<float>(number));
-  }
-
-  /// What players read of it: so that the levels above make good what rounding does below.
+  /// The numbers that players read, so that the levels above make good what rounding does below; a
+  /// rotation is not of length 1 then.
   static math::Trs as_written(const math::Trs& local) {
     const auto number = [](double x) { return static_cast<double>(static_cast<float>(x)); };
     const auto vector = [&](Vec3 v) { return Vec3{number(v.x), number(v.y), number(v.z)}; };
     const math::Quat& q = local.rotation;
     const math::Quat rounded{number(q.x), number(q.y), number(q.z), number(q.w)};
-    return {vector(local.translation), math::normalised(rounded), vector(local.scale)};
+    return {vector(local.translation), rounded, vector(local.scale)};
   }
 
-  /// Of a rotation and its negative the one nearer to the frame before.
-  void keep(std::size_t unknown, std::size_t frame, math::Trs local) {
-    const math::Quat before = frame == 0 ? scene_.local(unknowns_[unknown].node).rotation
-                                         : solution_.locals[unknown][frame - 1].rotation;
-    if (math::dot(before, local.rotation) < 0) local.rotation = -local.rotation;
-    solution_.locals[unknown][frame] = as_written(local);
+  /// The same of a joint that keeps the curves it has: between their keys nothing is rounded.
+  math::Trs as_played(const Unknown& u, const math::Trs& local) const {
+    math::Trs out = as_written(local);
+    const Aim& aim = input_.aims[static_cast<std::size_t>(u.turn_aim)];
+    if (aim.translation) out.translation = local.translation;
+    if (aim.rotation) out.rotation = local.rotation;
+    if (aim.scale) out.scale = local.scale;
+    return out;
   }
 
   const scene::Scene& scene_;
   const SolveInput& input_;
   const std::vector<Unknown>& unknowns_;
-  Noise noise_;
+  Tidy tidy_;
+  std::vector<std::vector<double>> samples_;  // of what the clip moves besides, [inputs][frames]
   Solution solution_;
 };
 
 }  // namespace
 
-std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input,
+std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input, Threads& threads,
                               Diagnostics& diagnostics) {
   const trace::Span span("solve");
   Solver solver(scene, input);
+  solver.sample(threads);
   for (int level = 0; level < input.plan.levels; ++level)
-    if (!solver.solve_level(level, diagnostics)) return std::nullopt;
+    if (!solver.solve_level(level, threads, diagnostics)) return std::nullopt;
   return solver.take_solution();
+}
+
+Solution merged(const scene::Scene& scene, const std::vector<Aim>& aims, const TransferPlan& plan,
+                const Solution& a, const std::vector<double>& times_of_a, const Solution& b,
+                const std::vector<double>& times_of_b) {
+  const Tidy tidy(scene, aims);
+  Solution out;
+  for (std::size_t i = 0; i < plan.unknowns.size(); ++i) {
+    out.locals.push_back(interleaved(a.locals[i], times_of_a, b.locals[i], times_of_b));
+    out.numbers.push_back(interleaved(a.numbers[i], times_of_a, b.numbers[i], times_of_b));
+    tidy.make_continuous(plan.unknowns[i], out.locals.back());
+    tidy.make_continuous(plan.unknowns[i], out.numbers.back());
+  }
+  return out;
 }
 
 }  // namespace rigc::bake

@@ -11,6 +11,12 @@
 
 namespace rigc::bake {
 
+/// [unknowns][frames], rotations continuous.
+struct Solution {
+  std::vector<std::vector<math::Trs>> locals;  ///< empty for twists
+  std::vector<std::vector<double>> numbers;    ///< of twists, empty for others
+};
+
 struct SolveInput {
   const TransferPlan& plan;
   const std::vector<Aim>& aims;
@@ -18,15 +24,15 @@ struct SolveInput {
   const std::vector<eval::ClipInput>& clip;              ///< what else the clip moves
   const std::vector<SwitchValue>& switches;
   const std::vector<double>& times;  ///< seconds
+  const Solution* others = nullptr;  ///< at other times of the same clip, with which it is merged
 };
 
-/// [unknowns][frames], rotations continuous.
-struct Solution {
-  std::vector<std::vector<math::Trs>> locals;  ///< empty for twists
-  std::vector<std::vector<double>> numbers;    ///< of twists, empty for others
-};
-
-std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input,
+std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input, Threads& threads,
                               Diagnostics& diagnostics);
+
+/// Solutions at times that are not the same, as one at all of them.
+Solution merged(const scene::Scene& scene, const std::vector<Aim>& aims, const TransferPlan& plan,
+                const Solution& a, const std::vector<double>& times_of_a, const Solution& b,
+                const std::vector<double>& times_of_b);
 
 }  // namespace rigc::bake

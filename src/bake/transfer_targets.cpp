@@ -7,6 +7,9 @@
 #include <map>
 #include <utility>
 
+#include "bake/joints.h"
+#include "scene/hierarchy.h"
+
 namespace rigc::bake {
 namespace {
 
@@ -29,15 +32,6 @@ Curves curves_of(const anim::Clip& clip) {
   return curves;
 }
 
-/// A joint of the skeleton, or one that a command hung under bones.
-bool is_bone(const scene::Scene& scene, NodeId id) {
-  for (NodeId at = id; at.valid(); at = scene[at].parent) {
-    if (scene[at].kind != Kind::joint) return false;
-    if (scene[at].is_skeleton()) return true;
-  }
-  return false;
-}
-
 class Finder {
  public:
   Finder(const scene::Scene& scene, const std::vector<int>& nodes, const anim::Clip& clip,
@@ -55,13 +49,13 @@ class Finder {
  private:
   Standing standing(NodeId id) const {
     if (!standings_.empty()) return standings_[id.index];
-    return {transform_above(scene_, id), {}, scene_.local(id)};
+    return {scene::transform_above(scene_, id), {}, scene_.local(id)};
   }
 
   /// What hangs under a control in the file goes where that goes.
   bool is_target(NodeId id) const {
     for (NodeId at = id; at.valid(); at = standing(at).base)
-      if (!is_bone(scene_, at) || nodes_[at.index] < 0) return false;
+      if (!scene::is_bone(scene_, at) || nodes_[at.index] < 0) return false;
     return true;
   }
 
@@ -75,8 +69,8 @@ class Finder {
   void add(NodeId id) {
     Aim aim{id, -1, true, standing(id)};
     if (aim.standing.base.valid()) aim.base = places_[aim.standing.base.index];
-    aim.direct =
-        aim.standing.base == transform_above(scene_, id) && aim.standing.between == math::Affine{};
+    aim.direct = aim.standing.base == scene::transform_above(scene_, id) &&
+                 aim.standing.between == math::Affine{};
     aim.translation = curve(id, anim::Path::translation);
     aim.rotation = curve(id, anim::Path::rotation);
     aim.scale = curve(id, anim::Path::scale);
@@ -99,12 +93,6 @@ class Finder {
 
 }  // namespace
 
-NodeId transform_above(const scene::Scene& scene, NodeId id) {
-  NodeId at = scene[id].parent;
-  while (at.valid() && !scene::spec(scene[at].kind).is_transform) at = scene[at].parent;
-  return at;
-}
-
 math::Trs local_at(const Aim& aim, double seconds) {
   math::Trs local = aim.standing.local;
   double n[4];
@@ -124,15 +112,23 @@ math::Trs local_at(const Aim& aim, double seconds) {
   return local;
 }
 
+const anim::Curve* curve_on(const Aim& aim, anim::Path path) {
+  return path == anim::Path::translation ? aim.translation
+         : path == anim::Path::rotation  ? aim.rotation
+                                         : aim.scale;
+}
+
+bool is_solved(const scene::Scene& scene, const Aim& aim) {
+  return is_driven(scene, aim.id) || (aim.animated() && !aim.direct);
+}
+
 std::vector<Aim> find_aims(const scene::Scene& scene, const std::vector<int>& nodes,
                            const anim::Clip& clip, const std::vector<Standing>& standings) {
   return Finder(scene, nodes, clip, standings).find();
 }
 
 double largest_difference(const Aim& aim, anim::Path path, const math::Trs& local) {
-  const anim::Curve* curve = path == anim::Path::translation ? aim.translation
-                             : path == anim::Path::rotation  ? aim.rotation
-                                                             : aim.scale;
+  const anim::Curve* curve = curve_on(aim, path);
   if (!curve) return differ(local_at(aim, 0), local, path);
   double largest = 0;
   const auto look = [&](double time) {
@@ -168,7 +164,7 @@ Noise::Noise(const scene::Scene& scene, const std::vector<Aim>& aims) : scene_(s
 
 double Noise::of(NodeId id, anim::Path path) const {
   if (path != anim::Path::translation) return kNoise;
-  const NodeId above = transform_above(scene_, id);
+  const NodeId above = scene::transform_above(scene_, id);
   const double scale = above.valid() ? math::length(scene_.rest_world(above).linear.x) : 1;
   return kNoise *
          std::max(size_ / std::max(scale, 1e-30), math::length(scene_.local(id).translation));

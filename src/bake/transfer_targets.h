@@ -10,6 +10,10 @@
 
 namespace rigc::bake {
 
+/// What a joint may have channels for.
+inline constexpr anim::Path kPaths[] = {anim::Path::translation, anim::Path::rotation,
+                                        anim::Path::scale};
+
 /// One joint of the rig that has a place in the file.
 struct Aim {
   scene::NodeId id;
@@ -21,6 +25,12 @@ struct Aim {
   const anim::Curve* scale = nullptr;
   bool animated() const { return translation || rotation || scale; }
 };
+
+/// Null: the clip has none.
+const anim::Curve* curve_on(const Aim& aim, anim::Path path);
+
+/// Whether the rig or the transfer says where a joint is: then its channels go, or come again.
+bool is_solved(const scene::Scene& scene, const Aim& aim);
 
 /// Joints of the skeleton, bases first; `clip` outlives them.
 std::vector<Aim> find_aims(const scene::Scene& scene, const std::vector<int>& nodes,
@@ -49,8 +59,5 @@ class Noise {
   const scene::Scene& scene_;
   double size_ = 0;  ///< how far a joint rests from the origin
 };
-
-/// The nearest transform above a node.
-scene::NodeId transform_above(const scene::Scene& scene, scene::NodeId id);
 
 }  // namespace rigc::bake

@@ -6,14 +6,17 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <set>
 
+#include "bake/joints.h"
 #include "base/text.h"
 #include "base/trace.h"
 #include "gltf/clips.h"
 #include "gltf/rig.h"
 #include "gltf/slim.h"
 #include "pipeline/build.h"
+#include "pipeline/clip_choice.h"
 #include "pipeline/codes.h"
 #include "pipeline/locks.h"
 
@@ -51,43 +54,10 @@ std::optional<bake::Options> read_options(const BakeRequest& request, Diagnostic
   options.end = request.end;
   options.controls_play = request.keep_rig;
   options.threads = request.threads;
-  const auto fps = request.fps == "source" ? std::optional<double>(0) : parse_number(request.fps);
-  const bool positive = fps && (*fps > 0 || request.fps == "source") && *fps <= 10000;
-  if (!positive || (request.start && request.end && *request.start > *request.end)) {
-    diagnostics.report(
-        codes::kBadRange, Place(request.file),
-        positive ? "--start lies after --end"
-                 : fmt::format("\"{}\" is no frame rate", printable(request.fps)),
-        positive ? "" : "--fps takes a number above 0, or source for the keys' own times");
-    return std::nullopt;
-  }
-  options.fps = *fps;
+  const auto rate = read_rate(request.file, request.fps, request.start, request.end, diagnostics);
+  if (!rate) return std::nullopt;
+  options.fps = *rate;
   return options;
-}
-
-/// The clips that the request names; all of them where it names none.
-std::optional<std::set<std::size_t>> choose_clips(const BakeRequest& request,
-                                                  const std::vector<anim::Clip>& clips,
-                                                  Diagnostics& diagnostics) {
-  std::set<std::size_t> chosen;
-  std::vector<std::string> names;
-  for (const anim::Clip& clip : clips) names.push_back(clip.name);
-  for (const std::string& wanted : request.clips) {
-    const auto number = parse_integer(wanted);
-    bool found = false;
-    for (std::size_t i = 0; i < clips.size(); ++i) {
-      if (clips[i].name != wanted && !(number && *number == static_cast<long long>(i))) continue;
-      chosen.insert(i);
-      found = true;
-    }
-    if (found) continue;
-    diagnostics.report(codes::kNoSuchClip, Place(request.file),
-                       fmt::format("there is no clip \"{}\"", printable(wanted)),
-                       suggest(wanted, names));
-  }
-  if (!diagnostics.ok()) return std::nullopt;
-  for (std::size_t i = 0; request.clips.empty() && i < clips.size(); ++i) chosen.insert(i);
-  return chosen;
 }
 
 /// Reports joints that a clip animates although the rig drives them, and shear.
@@ -130,9 +100,24 @@ bool concerns(const anim::Clip& clip, const std::set<int>& controls) {
                      [&](const auto& channel) { return controls.count(channel.node) != 0; });
 }
 
+/// How many channels, not made by a bake, say what the rig says of joints. What it does not drive
+/// of a joint, as its scale, is evaluated with the rest.
+std::size_t count_foreign(const gltf::Rig& rig, const anim::Clip& clip) {
+  std::map<int, scene::NodeId> joints;
+  for (const scene::NodeId id : rig.scene.nodes())
+    if (rig.scene[id].kind == scene::Kind::joint) joints.emplace(rig.nodes[id.index], id);
+  return static_cast<std::size_t>(
+      std::count_if(clip.channels.begin(), clip.channels.end(), [&](const anim::Channel& channel) {
+        const auto joint = joints.find(channel.node);
+        return joint != joints.end() && channel.path <= anim::Path::scale && !channel.baked &&
+               bake::is_driven(rig.scene, bake::plug_of(joint->second, channel.path));
+      }));
+}
+
 /// What baking a clip gives, without anything being written.
 struct ClipResult {
   bool good = false;
+  std::size_t foreign = 0;  ///< channels that say what the rig says
   BakedClip baked;
   gltf::ClipChange change;  ///< empty where the clip passes through
 };
@@ -160,8 +145,8 @@ class ClipBaker {
     }
     result.good = true;
     if (result.baked.passed_through) return result;
-    const std::size_t foreign = drop_channels(clip, controls, driven, result.change);
-    report_clip(request_, clip, result.baked, foreign, diagnostics);
+    drop_channels(clip, controls, driven, result.change);
+    report_clip(request_, clip, result.baked, result.foreign, diagnostics);
     // Where the rig stays, the next bake or update must know what it may make again.
     for (anim::Channel& channel : out.channels) channel.baked = request_.keep_rig;
     return result;
@@ -180,22 +165,19 @@ class ClipBaker {
     std::vector<anim::Channel>& channels = result.change.clip.channels;
     std::move(joints->channels.begin(), joints->channels.end(), std::back_inserter(channels));
     driven.insert(report.driven.begin(), report.driven.end());
+    result.foreign += count_foreign(rig, clip);
     add_report(report, rig, result.baked);
     return true;
   }
 
-  /// Gives how many of them were not made by a bake, on driven joints.
-  std::size_t drop_channels(const anim::Clip& clip, const std::set<int>& controls,
-                            const std::set<int>& driven, gltf::ClipChange& change) const {
-    std::size_t foreign = 0;
+  void drop_channels(const anim::Clip& clip, const std::set<int>& controls,
+                     const std::set<int>& driven, gltf::ClipChange& change) const {
     for (const anim::Channel& channel : clip.channels) {
       const bool on_driven = driven.count(channel.node) != 0;
-      foreign += on_driven && !channel.baked ? 1 : 0;
       const bool on_control = controls.count(channel.node) != 0 && !request_.keep_rig;
       if (on_driven || on_control || channel.baked)
         change.dropped_channels.push_back(channel.source_channel);
     }
-    return foreign;
   }
 
   const BakeRequest& request_;
@@ -253,7 +235,7 @@ std::optional<Baked> bake_file(const BakeRequest& request, const std::string& ou
   for (const gltf::Rig& rig : *rigs) check_evaluates(*file, rig, diagnostics);
   const auto clips = gltf::read_clips(*file, diagnostics, &*slim);
   if (!clips || !diagnostics.ok()) return std::nullopt;
-  const auto chosen = choose_clips(request, clips->clips, diagnostics);
+  const auto chosen = choose_clips(request.file, request.clips, clips->clips, diagnostics);
   if (!chosen) return std::nullopt;
 
   const std::vector<Bakeable> bakeable = look_at_rigs(*slim, *rigs);

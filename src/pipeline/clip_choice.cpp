@@ -52,7 +52,7 @@ std::optional<std::vector<bake::Standing>> bake_standings(const gltf::File& file
   const auto standings = gltf::standings(file, rig, diagnostics);
   if (!standings) return std::nullopt;
   std::vector<bake::Standing> out;
-  for (const gltf::Standing& s : *standings) out.push_back({s.base, s.between, s.local});
+  for (const gltf::Standing& s : *standings) out.push_back({s.base, s.between, s.local, s.points});
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/text.h"
 #include "base/trace.h"
@@ -13,6 +14,7 @@
 #include "pipeline/build.h"
 #include "pipeline/clip_choice.h"
 #include "pipeline/codes.h"
+#include "pipeline/locks.h"
 #include "pipeline/transfer_codes.h"
 
 namespace rigc::pipeline {
@@ -89,12 +91,22 @@ bool choose_switches(const TransferRequest& request, std::vector<Target>& target
   return diagnostics.ok();
 }
 
+std::vector<TransferredLimb> limbs_of(const std::vector<Target>& targets) {
+  std::vector<TransferredLimb> limbs;
+  for (const Target& target : targets)
+    for (std::size_t i = 0; i < target.found.size(); ++i)
+      limbs.push_back({target.found[i].group, target.switches[i].value == target.found[i].ik});
+  return limbs;
+}
+
 Off off_of(const gltf::Rig& rig, const bake::Deviation& deviation) {
   Off off;
   const tags::Character& character = rig.skeleton.character;
   off.mm = deviation.distance / character.unit * 1000;
   off.percent = deviation.distance / character.height * 100;
   off.degrees = math::degrees(deviation.angle);
+  off.seconds = deviation.farthest_at;
+  off.turned_seconds = deviation.most_turned_at;
   if (deviation.farthest.valid()) off.joint = rig.scene[deviation.farthest].name;
   if (deviation.most_turned.valid()) off.turned_joint = rig.scene[deviation.most_turned].name;
   return off;
@@ -105,10 +117,12 @@ void keep_larger(Off& off, const Off& other) {
     off.mm = other.mm;
     off.percent = other.percent;
     off.joint = other.joint;
+    off.seconds = other.seconds;
   }
   if (other.degrees > off.degrees || off.turned_joint.empty()) {
     off.degrees = other.degrees;
     off.turned_joint = other.turned_joint;
+    off.turned_seconds = other.turned_seconds;
   }
 }
 
@@ -116,20 +130,32 @@ void report_off(const TransferRequest& request, const anim::Clip& clip, const Of
                 Diagnostics& diagnostics) {
   std::string what;
   if (off.percent > kFar * 100)
-    what = fmt::format("\"{}\" is up to {:.3g} mm ({:.2g} % of height) away", printable(off.joint),
-                       off.mm, off.percent);
+    what = fmt::format("\"{}\" is up to {} mm ({} % of height) away", printable(off.joint),
+                       short_number(off.mm), short_number(off.percent));
   if (off.degrees > kTurned)
-    what += fmt::format("{}\"{}\" is turned by up to {:.3g} degrees", what.empty() ? "" : ", ",
-                        printable(off.turned_joint), off.degrees);
+    what += fmt::format("{}\"{}\" is turned by up to {} degrees", what.empty() ? "" : ", ",
+                        printable(off.turned_joint), short_number(off.degrees));
   if (what.empty()) return;
   diagnostics.report(request.strict ? codes::kNotReachedStrictly : codes::kNotReached,
                      Place(request.file, fmt::format("/animations/{}", clip.source_animation)),
                      fmt::format("clip \"{}\": joint {}", printable(clip.name), what));
 }
 
+void report_replaced(const TransferRequest& request, const gltf::Rig& rig, const anim::Clip& clip,
+                     const std::vector<scene::NodeId>& controls, Diagnostics& diagnostics) {
+  if (controls.empty()) return;
+  const std::string& first = rig.scene[controls.front()].name;
+  diagnostics.report(codes::kReplacedKeys,
+                     Place(request.file, fmt::format("/animations/{}", clip.source_animation)),
+                     fmt::format("clip \"{}\": keys on {} control{}, \"{}\" first, are replaced",
+                                 printable(clip.name), controls.size(),
+                                 controls.size() == 1 ? "" : "s", printable(first)));
+}
+
 void add_report(const bake::TransferReport& one, bake::TransferReport& sum) {
   sum.joints += one.joints;
   sum.frames = std::max(sum.frames, one.frames);
+  sum.inserted = std::max(sum.inserted, one.inserted);
   sum.controls += one.controls;
   sum.channels += one.channels;
   sum.keys += one.keys;
@@ -150,6 +176,7 @@ std::optional<TransferredClip> transfer_clip(const TransferRequest& request,
     bake::TransferOptions options = wanted;
     options.standings = target.standings;
     options.switches = target.switches;
+    options.tolerance = request.tolerance_mm / 1000 * target.rig->skeleton.character.unit;
     bake::TransferReport report;
     auto one =
         bake::transfer(target.rig->scene, target.rig->nodes, clip, options, report, diagnostics);
@@ -157,8 +184,12 @@ std::optional<TransferredClip> transfer_clip(const TransferRequest& request,
     if (report.joints == 0) continue;
     add_report(report, out.report);
     for (const scene::NodeId id : report.kept) out.kept.push_back(target.rig->scene[id].name);
+    for (const scene::NodeId id : report.untouched)
+      out.untouched.push_back(target.rig->scene[id].name);
     keep_larger(out.at_keys, off_of(*target.rig, report.at_keys));
     keep_larger(out.between, off_of(*target.rig, report.between));
+    report_replaced(request, *target.rig, clip, report.replaced, diagnostics);
+    report_locked_keys(request.file, *target.rig, one->clip, diagnostics);
     auto& channels = change.clip.channels;
     channels.insert(channels.end(), one->clip.channels.begin(), one->clip.channels.end());
     change.dropped_channels.insert(change.dropped_channels.end(), one->dropped.begin(),
@@ -171,12 +202,25 @@ std::optional<TransferredClip> transfer_clip(const TransferRequest& request,
   return out;
 }
 
+bool check_tolerance(const TransferRequest& request, Diagnostics& diagnostics) {
+  if (request.tolerance_mm >= 0 && std::isfinite(request.tolerance_mm)) return true;
+  diagnostics.report(codes::kBadRange, Place(request.file),
+                     fmt::format("a tolerance of {} mm is not possible", request.tolerance_mm),
+                     "--tolerance takes millimetres, 0 or more");
+  return false;
+}
+
 }  // namespace
+
+std::string short_number(double x) {
+  return std::abs(x) < 100 ? fmt::format("{:.2g}", x) : fmt::format("{:.0f}", x);
+}
 
 std::optional<TransferredFile> transfer_file(const TransferRequest& request, const std::string& out,
                                              Diagnostics& diagnostics) {
   const auto rate = read_rate(request.file, request.fps, request.start, request.end, diagnostics);
-  if (!rate || !check_output_name(out, diagnostics)) return std::nullopt;
+  if (!rate || !check_tolerance(request, diagnostics) || !check_output_name(out, diagnostics))
+    return std::nullopt;
   const auto file = gltf::open(request.file, diagnostics);
   if (!file) return std::nullopt;
   const auto rigs = gltf::read_rigs(*file, diagnostics);
@@ -198,7 +242,9 @@ std::optional<TransferredFile> transfer_file(const TransferRequest& request, con
   options.fps = *rate;
   options.start = request.start;
   options.end = request.end;
+  options.threads = request.threads;
   TransferredFile result;
+  result.limbs = limbs_of(*targets);
   std::vector<gltf::ClipChange> changes;
   for (const std::size_t i : *chosen) {
     auto one = transfer_clip(request, options, clips->clips[i], *targets, changes, diagnostics);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Diagnostic codes 784, 796, 797: transfer. Test: tests/pipeline/transfer_test.cpp
+// Diagnostic codes 784, 796 to 798: transfer. Test: tests/pipeline/transfer_test.cpp
 #pragma once
 
 #include "base/diagnostics.h"
@@ -19,6 +19,11 @@ inline constexpr Code kNotReached{
 inline constexpr Code kNotReachedStrictly{797, Severity::error,
                                           "controls do not reach the clip's pose",
                                           "As the warning; --strict was given."};
-inline constexpr const Code* kTransferCodes[] = {&kNoSuchLimb, &kNotReached, &kNotReachedStrictly};
+inline constexpr Code kReplacedKeys{
+    798, Severity::warning, "keys on controls are replaced",
+    "The clip also keys controls that its joints are transferred to. They get the pose of the "
+    "joints, which is rest where a joint has no keys; what they had is gone from the clip."};
+inline constexpr const Code* kTransferCodes[] = {&kNoSuchLimb, &kNotReached, &kNotReachedStrictly,
+                                                 &kReplacedKeys};
 
 }  // namespace rigc::pipeline::codes

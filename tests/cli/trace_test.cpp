@@ -10,10 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "cli/clip_helpers.h"
 #include "cli/process_helpers.h"
 #include "eval/isa.h"
 
 namespace fs = std::filesystem;
+using rigc::test::animated;
 using rigc::test::file_text;
 using rigc::test::Outcome;
 using rigc::test::run_rigc;
@@ -55,33 +57,6 @@ fs::path studio(const std::string& name) {
 void run(const fs::path& folder, const std::vector<std::string>& arguments) {
   const Outcome done = run_rigc(arguments, {folder, {}});
   REQUIRE_MESSAGE(done.status == 0, done.err);
-}
-
-/// The same file with a clip that moves a node up by 1 m in a second.
-std::string animated(const std::string& gltf, const nlohmann::json& node) {
-  auto document = nlohmann::json::parse(gltf);
-  const auto append = [&](const char* array, const char* text) {
-    document[array].push_back(nlohmann::json::parse(text));
-    return document[array].size() - 1;
-  };
-  // Times 0, 1; then the vectors 0 0 0 and 0 1 0.
-  const std::size_t buffer =
-      append("buffers", R"({"byteLength": 32, "uri": "data:application/octet-stream;base64,)"
-                        R"(AAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAAAACAPwAAAAA="})");
-  const std::size_t view = append("bufferViews", R"({"byteLength": 32})");
-  document["bufferViews"][view]["buffer"] = buffer;
-  const std::size_t times =
-      append("accessors",
-             R"({"componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]})");
-  const std::size_t values = append(
-      "accessors", R"({"byteOffset": 8, "componentType": 5126, "count": 2, "type": "VEC3"})");
-  for (const std::size_t accessor : {times, values})
-    document["accessors"][accessor]["bufferView"] = view;
-  const std::size_t clip = append("animations", R"({"name": "rise", "channels": [{"sampler": 0,
-      "target": {"path": "translation"}}], "samplers": [{}]})");
-  document["animations"][clip]["channels"][0]["target"]["node"] = node;
-  document["animations"][clip]["samplers"][0] = {{"input", times}, {"output", values}};
-  return document.dump();
 }
 
 /// Whether each span of a thread lies inside the one that was open when it began.
