@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/timing.h"
 #include "pipeline/transfer.h"
 
 namespace rigc::cli {
@@ -42,8 +43,14 @@ class Transfer final : public Command {
     options.number("--end", "SECONDS", request_.end,
                    "Where to end (default: the joints' last key)");
     options.flag("--strict", request_.strict, "A pose that the controls cannot reach is an error");
+    declare_timing(options, timing_);
   }
   void run(Session& session) override {
+    run_timed(timing_, session, [&] { transfer(session); });
+  }
+
+ private:
+  void transfer(Session& session) {
     Threads threads;
     request_.threads = &threads;
     if (tolerance_) request_.tolerance_mm = *tolerance_;
@@ -52,7 +59,6 @@ class Transfer final : public Command {
     session.out = session.json ? as_json(*done) : as_text(*done);
   }
 
- private:
   static std::string off_as_text(const pipeline::Off& off) {
     return fmt::format(
         "{} mm ({} % of height; \"{}\" at {:.2f} s), {} degrees (\"{}\" at {:.2f} s)",
@@ -159,6 +165,7 @@ class Transfer final : public Command {
   pipeline::TransferRequest request_;
   std::optional<double> tolerance_;
   std::string out_;
+  Timing timing_;
 };
 
 }  // namespace

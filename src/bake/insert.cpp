@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bake/frames.h"
+#include "base/trace.h"
 
 namespace rigc::bake {
 namespace {
@@ -94,6 +95,7 @@ std::vector<char> find_bad(const Evaluator& evaluator, const Motion& motion,
 std::optional<std::vector<double>> insert_frames(const Evaluator& evaluator,
                                                  std::vector<double> times, double tolerance,
                                                  Threads& threads, Diagnostics& diagnostics) {
+  const trace::Span span("insert frames");
   std::vector<Gap> gaps;
   const auto add = [&gaps](const Gap& gap) {
     if (gap.is_wide()) gaps.push_back(gap);

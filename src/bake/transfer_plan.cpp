@@ -10,6 +10,7 @@
 #include "bake/transfer_order.h"
 #include "bake/transfer_own.h"
 #include "bake/transfer_plugs.h"
+#include "base/trace.h"
 #include "eval/evaluate.h"
 #include "scene/hierarchy.h"
 
@@ -291,6 +292,7 @@ std::optional<TransferPlan> make_plan(const scene::Scene& scene, const std::vect
                                       const std::vector<Aim>& aims,
                                       const std::vector<SwitchValue>& switches,
                                       Diagnostics& diagnostics) {
+  const trace::Span span("plan");
   return Planner(scene, nodes, aims, switches, diagnostics).plan();
 }
 

@@ -10,6 +10,7 @@
 #include "bake/transfer_limb.h"
 #include "bake/transfer_order.h"
 #include "bake/transfer_tidy.h"
+#include "base/trace.h"
 #include "eval/evaluate.h"
 
 namespace rigc::bake {
@@ -331,6 +332,7 @@ class Solver {
 
 std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input, Threads& threads,
                               Diagnostics& diagnostics) {
+  const trace::Span span("solve");
   Solver solver(scene, input);
   solver.sample(threads);
   for (int level = 0; level < input.plan.levels; ++level)

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <exception>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -49,9 +50,18 @@ class Threads::Loop {
 
   void help() {
     const trace::Attach attach(recorder_);
+    help_inside(0);
+    ++threads_.spare_;
+  }
+
+  /// Inside the stages that the loop is in, from `stage` on.
+  void help_inside(std::size_t stage) {
+    if (stage < stages_.size()) {
+      const trace::Span span(stages_[stage], trace::kHelp);
+      return help_inside(stage + 1);
+    }
     while (work_on_next([] {})) {
     }
-    ++threads_.spare_;
   }
 
   template <class Before>
@@ -76,6 +86,7 @@ class Threads::Loop {
   const std::size_t count_;
   const std::function<void(std::size_t)>& work_;
   trace::Recorder* const recorder_ = trace::current();
+  const std::vector<std::string> stages_ = trace::open_spans();
   std::atomic<std::size_t> next_{0};
   std::vector<std::thread> helpers_;
   bool refused_ = false;  // by the system: another thread

@@ -57,6 +57,16 @@ Attach::~Attach() {
 
 Recorder* current() { return detail::attached ? &detail::attached->recorder : nullptr; }
 
+std::vector<std::string> open_spans() {
+  if (!detail::attached) return {};
+  const std::vector<Event>& events = detail::attached->thread.events;
+  std::size_t depth = detail::attached->depth;
+  std::vector<std::string> names(depth);
+  for (std::size_t i = events.size(); i-- > 0 && depth > 0;)
+    if (events[i].depth == depth - 1) names[--depth] = events[i].name;
+  return names;
+}
+
 void Span::begin(std::string_view name, std::string_view category, std::string_view key,
                  std::string_view value) {
   ThreadEvents& thread = attached_->thread;

@@ -19,6 +19,10 @@ namespace rigc::trace {
 inline constexpr std::string_view kStage = "stage";
 inline constexpr std::string_view kFile = "file";
 
+/// A thread's part in a stage that another thread began: its time counts, but it is no further
+/// stage.
+inline constexpr std::string_view kHelp = "help";
+
 /// A span that was recorded. Times are nanoseconds since the recorder was made.
 struct Event {
   std::string name;
@@ -84,6 +88,9 @@ class Attach {
 
 /// Where spans of this thread go, for the threads that it starts; null: nowhere.
 Recorder* current();
+
+/// Names of the spans that are open in this thread, outermost first, for the threads that help it.
+std::vector<std::string> open_spans();
 
 /// From here to the end of the scope.
 class Span {

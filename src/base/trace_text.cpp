@@ -39,7 +39,7 @@ struct Total {
 
   void add(const Event& event) {
     nanoseconds += event.end - event.begin;
-    ++count;
+    if (event.category != kHelp) ++count;
   }
 };
 
@@ -64,7 +64,9 @@ struct Sums {
   std::size_t left_out = 0;
 };
 
-bool is_command(const Event& event) { return event.category != kStage && event.category != kFile; }
+bool is_command(const Event& event) {
+  return event.category != kStage && event.category != kFile && event.category != kHelp;
+}
 
 void add_thread(const ThreadEvents& thread, Sums& sums) {
   sums.all.total.nanoseconds += thread.end - thread.begin;

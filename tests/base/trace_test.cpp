@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "base/text.h"
+#include "base/threads.h"
 
 using namespace rigc;
 using trace::Attach;
@@ -124,6 +125,32 @@ TEST_CASE("base trace: threads that run together have numbers and spans of their
     CHECK(threads[i].events.size() == spans[i]);
   }
   CHECK(trace::as_table(threads).find("total of 5 threads") != std::string::npos);
+}
+
+TEST_CASE("base trace: a thread that helps is in the stages of the loop that it helps") {
+  Recorder recorder;
+  {
+    const Attach attach(&recorder);
+    { const Span before("before"); }
+    const Span outer("outer"), inner("inner");
+    std::atomic<unsigned> begun{0};
+    Threads threads(2);
+    threads.for_each(2, [&](std::size_t) {
+      for (++begun; begun < 2;) std::this_thread::yield();  // one item for each thread
+      const Span span("work");
+    });
+  }
+  const std::vector<ThreadEvents> threads = recorder.threads();
+  REQUIRE(threads.size() == 2);
+  const auto& events = threads[1].events;
+  REQUIRE(events.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) CHECK(events[i].depth == i);
+  CHECK(events[0].name == "outer");
+  CHECK(events[1].name == "inner");
+  CHECK(events[1].category == trace::kHelp);
+  const std::string table = trace::as_table(threads);
+  CHECK(row(table, "  inner").back() == "1");
+  CHECK(row(table, "    work").back() == "2");
 }
 
 TEST_CASE("base trace: beyond the limit spans are counted") {

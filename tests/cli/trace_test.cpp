@@ -198,6 +198,19 @@ TEST_CASE("cli trace: a bake's stages, and the same file") {
   CHECK((*clip)["args"]["clip"] == "rise");
 }
 
+TEST_CASE("cli trace: a transfer's stages, and the same file") {
+  const fs::path folder = studio("trace_transfer");
+  run(folder, {"build", "studio/lamp.yaml", "-o", "rig.gltf"});
+  const Outcome looked = run_rigc({"inspect", "rig.gltf", "--json"}, {folder, {}});
+  const auto node = nlohmann::json::parse(looked.out).at("rigs")[0].at("joints")[0].at("node");
+  write(folder / "shot.gltf", animated(file_text(folder / "rig.gltf"), node));
+  run(folder, {"transfer", "shot.gltf", "-o", "plain.glb"});
+  run(folder, {"transfer", "shot.gltf", "-o", "traced.glb", "--trace", "t.json", "--time"});
+  CHECK(file_text(folder / "plain.glb") == file_text(folder / "traced.glb"));
+  check_stages(spans(folder / "t.json"), {"read file", "read rigs", "read clips", "transfer clip",
+                                          "plan", "solve", "measure", "write clips", "write file"});
+}
+
 TEST_CASE("cli trace: a file that cannot be one is an error before the work") {
   const fs::path folder = studio("trace_bad");
   const auto refused = [&](const std::vector<std::string>& more, const char* code) {
