@@ -181,6 +181,7 @@ std::vector<std::size_t> all_gaps(const std::vector<double>& times) {
 bool measure(const MeasureInput& input, const std::vector<double>& times,
              const std::vector<std::size_t>& gaps, Threads& threads, std::vector<GapOff>& off,
              Diagnostics& diagnostics) {
+  const trace::Span span("measure");
   Rig rig(input);
   if (!rig.compile(diagnostics)) return false;
   std::vector<Diagnostics> reported((gaps.size() + kBlock - 1) / kBlock,
