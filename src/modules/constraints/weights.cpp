@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "modules/codes.h"
+#include "modules/wiring.h"
 
 namespace rigc::modules {
 
@@ -36,17 +37,14 @@ void connect_weights(Builder& b, NodeId constraint, std::uint16_t attribute,
   const NodeId holder = b.with().node("weights_on");
   const std::string& base = b.with().text("weights_name");
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    scene::UserAttribute weight;
-    weight.name = fmt::format("{}_{}", base, i);
-    weight.value = weight.initial = weights[i];
-    weight.min = 0;
-    if (b.scene().find_plug(holder, weight.name)) {
+    const std::string name = fmt::format("{}_{}", base, i);
+    if (b.scene().find_plug(holder, name)) {
       b.fail(codes::kAttributeExists, "weights_name",
              fmt::format("{} has an attribute \"{}\" already",
-                         traversal::describe(b.scene(), holder), weight.name));
+                         traversal::describe(b.scene(), holder), name));
       return;
     }
-    const Plug plug = b.add_attribute(holder, std::move(weight));
+    const Plug plug = add_number(b, holder, {.name = name, .value = weights[i], .min = 0});
     b.connect(plug, {constraint, attribute, static_cast<std::int32_t>(i)});
   }
 }

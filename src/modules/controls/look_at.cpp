@@ -3,7 +3,7 @@
 // Test: tests/modules/look_at_test.cpp
 #include "modules/codes.h"
 #include "modules/registry.h"
-#include "modules/steps.h"
+#include "modules/wiring.h"
 
 namespace rigc::modules {
 namespace {
@@ -23,9 +23,8 @@ void aim_eye(Builder& b, NodeId eye, NodeId aim, NodeId head) {
   const math::Mat3 eye_axes = math::orthonormal(rest(b, eye).linear);
   b.connect({eye, scene::transform::kParent}, {node, attribute::kParent});
   b.connect({eye, scene::transform::kTranslate}, {node, attribute::kPosition});
-  b.set({node, attribute::kTargets, 0}, rest(b, aim));
   b.set({node, attribute::kWeights, 0}, 1.0);
-  b.connect(world_of(aim), {node, attribute::kTargets, 0});
+  follow_world(b, {node, attribute::kTargets, 0}, aim);
   // Up turns with the head, so that a rolled head keeps its gaze upright in the head.
   if (head.valid()) {
     b.set({node, attribute::kUpMode}, 2.0);

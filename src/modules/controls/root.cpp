@@ -3,7 +3,7 @@
 // Test: tests/modules/root_test.cpp
 #include "modules/codes.h"
 #include "modules/registry.h"
-#include "modules/steps.h"
+#include "modules/wiring.h"
 
 namespace rigc::modules {
 namespace {
@@ -26,11 +26,7 @@ math::Affine ground_frame(const Builder& b) {
 }
 
 void add_master_scale(Builder& b, NodeId world) {
-  scene::UserAttribute scale;
-  scale.name = "master_scale";
-  scale.value = scale.initial = 1;
-  scale.min = 0.001;
-  const Plug plug = b.add_attribute(world, std::move(scale));
+  const Plug plug = add_number(b, world, {.name = "master_scale", .value = 1, .min = 0.001});
   for (std::int8_t axis = 0; axis < 3; ++axis) {
     b.connect(plug, {world, scene::transform::kScale, -1, axis});
   }

@@ -5,8 +5,8 @@
 
 #include "modules/codes.h"
 #include "modules/registry.h"
-#include "modules/steps.h"
 #include "modules/steps_groups.h"
+#include "modules/wiring.h"
 
 namespace rigc::modules {
 namespace {
@@ -78,11 +78,10 @@ void add_switch(Builder& b, NodeId layer) {
     return;
   }
   if (!plug) {
-    scene::UserAttribute shown;
-    shown.name = name;
-    shown.flavour = scene::UserAttribute::Flavour::boolean;
-    shown.value = shown.initial = b.scene().number({layer, attribute::kVisible});
-    plug = b.add_attribute(control, std::move(shown));
+    plug = add_number(b, control,
+                      {.name = name,
+                       .value = b.scene().number({layer, attribute::kVisible}),
+                       .flavour = scene::UserAttribute::Flavour::boolean});
   } else if (b.scene().number({layer, attribute::kVisible}) == 0 && b.scene().number(*plug) != 0) {
     b.fail(codes::kSettingsDiffer, "visible",
            fmt::format("the layer is hidden, but {} of {} is on", name,
@@ -108,16 +107,8 @@ void follow(Builder& b, NodeId node, NodeId layer) {
     if (b.scene().number(visible) != 0) b.connect(shown, visible);
     return;
   }
-  namespace expression = scene::expression;
-  const NodeId both = b.make({.kind = scene::Kind::expression,
-                              .role = "utility",
-                              .joint = b.index().joint(b.scene()[node].identity.owner),
-                              .parent = {},
-                              .suffix = "visible"});
-  b.set({both, expression::kCode}, std::string("$0 * $1"));
-  b.connect(*before, {both, expression::kInputs, 0});
-  b.connect(shown, {both, expression::kInputs, 1});
-  b.reconnect({both, expression::kOutput}, visible);
+  const NodeId owner = b.index().joint(b.scene()[node].identity.owner);
+  b.reconnect(formula(b, owner, "visible", "$0 * $1", {*before, shown}, "utility"), visible);
 }
 
 void color_members(Builder& b, NodeId layer) {

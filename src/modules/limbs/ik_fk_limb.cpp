@@ -6,6 +6,7 @@
 #include "modules/codes.h"
 #include "modules/limbs/two_bone.h"
 #include "modules/registry.h"
+#include "modules/wiring.h"
 
 namespace rigc::modules {
 namespace {
@@ -82,43 +83,18 @@ void make_settings(Builder& b, Limb& limb) {
   limb.settings = make_control(b, spec).control;
   if (b.failed()) return;
 
-  scene::UserAttribute ik_fk;
-  ik_fk.name = "ik_fk";
-  ik_fk.value = ik_fk.initial = with.number("ik_fk");
-  ik_fk.min = 0;
-  ik_fk.max = 1;
-  limb.ik_weight = b.add_attribute(limb.settings, std::move(ik_fk));
-  namespace expression = scene::expression;
-  const NodeId rest_of = b.make({.kind = scene::Kind::expression,
-                                 .role = "driver",
-                                 .joint = limb.joints[2],
-                                 .parent = {},
-                                 .suffix = "fk_weight"});
-  b.set({rest_of, expression::kCode}, std::string("1 - $0"));
-  b.set({rest_of, expression::kInputs, 0}, with.number("ik_fk"));
-  b.connect(limb.ik_weight, {rest_of, expression::kInputs, 0});
-  limb.fk_weight = {rest_of, expression::kOutput};
+  limb.ik_weight = add_number(b, limb.settings,
+                              {.name = "ik_fk", .value = with.number("ik_fk"), .min = 0, .max = 1});
+  limb.fk_weight = formula(b, limb.joints[2], "fk_weight", "1 - $0", {limb.ik_weight});
 }
 
 /// Turns of the upper and the lower bone about themselves, which goal and pole cannot say. Equal
 /// values on both sides of a character mirror each other.
 void add_twist(Builder& b, const Limb& limb, std::size_t i) {
-  scene::UserAttribute twist;
-  twist.name = i == 0 ? "upper_twist" : "lower_twist";
-  twist.flavour = scene::UserAttribute::Flavour::angle;
-  Plug plug = b.add_attribute(limb.ik, std::move(twist));
-  if (is_mirrored(b, limb.joints[i])) {
-    namespace expression = scene::expression;
-    const NodeId negative = b.make({.kind = scene::Kind::expression,
-                                    .role = "driver",
-                                    .joint = limb.joints[i],
-                                    .parent = {},
-                                    .suffix = "twist"});
-    b.set({negative, expression::kCode}, std::string("-$0"));
-    b.set({negative, expression::kInputs, 0}, 0.0);
-    b.connect(plug, {negative, expression::kInputs, 0});
-    plug = {negative, expression::kOutput};
-  }
+  Plug plug = add_number(b, limb.ik,
+                         {.name = i == 0 ? "upper_twist" : "lower_twist",
+                          .flavour = scene::UserAttribute::Flavour::angle});
+  if (is_mirrored(b, limb.joints[i])) plug = formula(b, limb.joints[i], "twist", "-$0", {plug});
   b.connect(plug, {limb.solver, i == 0 ? scene::ik2::kStartTwist : scene::ik2::kMiddleTwist});
 }
 
@@ -143,14 +119,9 @@ void blend(Builder& b, const Limb& limb) {
 /// What a joint that the skeleton does not take along keeps its place under: the joint before, and
 /// the translation of the FK control, which so moves it off its place in FK and in IK. Clips of
 /// models whose feet hang under the root do that.
-NodeId make_place(Builder& b, const Limb& limb, std::size_t i) {
-  const math::Affine frame = rest(b, limb.fk[i]);
-  const NodeId zero = b.make({.kind = scene::Kind::transform,
-                              .role = "space",
-                              .joint = limb.joints[i],
-                              .parent = {},
-                              .suffix = "place_zero"});
-  hang(b, zero, limb.joints[i - 1], frame);
+NodeId moved_place(Builder& b, const Limb& limb, std::size_t i) {
+  const NodeId zero =
+      make_place(b, limb.joints[i], "place_zero", limb.joints[i - 1], rest(b, limb.fk[i]));
   const NodeId place = b.make({.kind = scene::Kind::transform,
                                .role = "space",
                                .joint = limb.joints[i],
@@ -166,7 +137,7 @@ void carry_joints(Builder& b, const Limb& limb) {
   for (std::size_t i = 0; i < 3; ++i) {
     const NodeId before = i == 0 ? limb.space : limb.joints[i - 1];
     if (carried_by(b, limb.joints[i], before)) continue;
-    carry(b, limb.joints[i], i == 0 ? limb.fk[0] : make_place(b, limb, i));
+    carry(b, limb.joints[i], i == 0 ? limb.fk[0] : moved_place(b, limb, i));
   }
 }
 

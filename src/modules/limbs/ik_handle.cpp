@@ -8,6 +8,7 @@
 #include "modules/codes.h"
 #include "modules/limbs/two_bone.h"
 #include "modules/registry.h"
+#include "modules/wiring.h"
 
 namespace rigc::modules {
 namespace {
@@ -83,8 +84,7 @@ void build_chain(Builder& b, const std::vector<NodeId>& chain, NodeId handle) {
                                 .parent = {},
                                 .suffix = "ik"});
   b.connect({chain.front(), transform::kParent}, {solver, ik::kBase});
-  b.set({solver, ik::kGoal}, rest(b, handle));
-  b.connect(world_of(handle), {solver, ik::kGoal});
+  follow_world(b, {solver, ik::kGoal}, handle);
   b.set({solver, ik::kGoalOffset}, math::inverse(rest(b, handle)) * position(b, chain.back()));
   b.set({solver, ik::kTwist}, b.with().number("twist"));
   b.set({solver, ik::kIterations}, b.with().number("iterations"));
@@ -93,8 +93,7 @@ void build_chain(Builder& b, const std::vector<NodeId>& chain, NodeId handle) {
   if (!pole.valid()) pole = straight_chain_pole(b, chain, b.with().text("bend"));
   if (pole.valid()) {
     b.set({solver, ik::kHasPole}, 1.0);
-    b.set({solver, ik::kPole}, rest(b, pole));
-    b.connect(world_of(pole), {solver, ik::kPole});
+    follow_world(b, {solver, ik::kPole}, pole);
   }
   connect_joints(b, chain, solver);
 }

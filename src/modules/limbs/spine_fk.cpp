@@ -5,7 +5,7 @@
 
 #include "modules/codes.h"
 #include "modules/registry.h"
-#include "modules/steps.h"
+#include "modules/wiring.h"
 
 namespace rigc::modules {
 namespace {
@@ -22,13 +22,7 @@ void carry_base(Builder& b, NodeId zero, NodeId hips) {
 /// follows it, because the spine's base gets its position from the hips.
 NodeId stand_on(Builder& b, NodeId space, NodeId hips) {
   if (!space.valid() || b.scene()[space].kind != scene::Kind::joint) return space;
-  const NodeId stand = b.make({.kind = scene::Kind::transform,
-                               .role = "space",
-                               .joint = hips,
-                               .parent = {},
-                               .suffix = "stand"});
-  hang(b, stand, space, {character_axes(b), position(b, hips)});
-  return stand;
+  return make_place(b, hips, "stand", space, {character_axes(b), position(b, hips)});
 }
 
 }  // namespace

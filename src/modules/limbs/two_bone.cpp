@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "modules/codes.h"
+#include "modules/wiring.h"
 
 namespace rigc::modules {
 namespace {
@@ -80,14 +81,8 @@ namespace {
 /// Stands in for a pole that nobody named: keeps the bend of the rest pose with what the limb hangs
 /// on.
 NodeId pole_anchor(Builder& b, const TwoBone& limb) {
-  const NodeId anchor = b.make({.kind = scene::Kind::transform,
-                                .role = "space",
-                                .joint = limb.middle,
-                                .parent = {},
-                                .suffix = "pole_anchor"});
-  hang(b, anchor, space_of(b, limb.start),
-       {character_axes(b), pole_position(b, limb, limb.length)});
-  return anchor;
+  return make_place(b, limb.middle, "pole_anchor", space_of(b, limb.start),
+                    {character_axes(b), pole_position(b, limb, limb.length)});
 }
 
 /// Where middle and end are, each seen from the joint before it. A joint that hangs right there
@@ -143,8 +138,7 @@ NodeId make_two_bone(Builder& b, const TwoBone& limb, NodeId goal, NodeId pole, 
   b.connect({limb.start, transform::kTranslate}, {node, ik2::kStart});
   b.connect({limb.start, transform::kScale}, {node, ik2::kStartScale});
   connect_bones(b, limb, node);
-  b.set({node, ik2::kGoal}, rest(b, goal));
-  b.connect(world_of(goal), {node, ik2::kGoal});
+  follow_world(b, {node, ik2::kGoal}, goal);
   b.set({node, ik2::kGoalOffset}, math::inverse(rest(b, goal)) * p2);
   b.set({node, ik2::kTwist}, twist);
 
@@ -161,9 +155,7 @@ NodeId make_two_bone(Builder& b, const TwoBone& limb, NodeId goal, NodeId pole, 
   const math::Mat3 base_axes =
       base.valid() ? math::orthonormal(rest(b, base).linear) : math::Mat3{};
   b.set({node, ik2::kNormal}, math::transposed(base_axes) * normal);
-  const NodeId toward = pole.valid() ? pole : pole_anchor(b, limb);
-  b.set({node, ik2::kPole}, rest(b, toward));
-  b.connect(world_of(toward), {node, ik2::kPole});
+  follow_world(b, {node, ik2::kPole}, pole.valid() ? pole : pole_anchor(b, limb));
   return node;
 }
 
