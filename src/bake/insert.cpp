@@ -7,29 +7,17 @@
 #include <utility>
 
 #include "bake/frames.h"
+#include "bake/gaps.h"
 #include "base/trace.h"
 
 namespace rigc::bake {
 namespace {
 
-constexpr double kShortest = 1e-3;  // seconds
-constexpr std::size_t kInside = 3;  // times in a gap at which it is looked at
-
-struct Gap {
-  double begin, end;  ///< seconds
-  double inside(std::size_t i) const {
-    const double share = static_cast<double>(i + 1) / (kInside + 1);
-    return static_cast<double>(static_cast<float>(begin + (end - begin) * share));
-  }
-  double middle() const { return inside(kInside / 2); }
-  bool is_wide() const { return end - begin > kShortest && inside(0) > begin && middle() < end; }
-};
-
 std::vector<double> times_of(const std::vector<Gap>& gaps) {
   std::vector<double> times;
   for (const Gap& gap : gaps) {
     times.push_back(gap.begin);
-    for (std::size_t i = 0; i < kInside; ++i) times.push_back(gap.inside(i));
+    for (std::size_t i = 0; i < Gap::kInside; ++i) times.push_back(gap.inside(i));
     times.push_back(gap.end);
   }
   std::sort(times.begin(), times.end());
@@ -83,7 +71,7 @@ std::vector<char> find_bad(const Evaluator& evaluator, const Motion& motion,
   std::vector<char> bad(gaps.size(), 0);
   threads.for_each(gaps.size(), [&](std::size_t g) {
     const Gap& gap = gaps[g];
-    for (std::size_t i = 0; i < kInside && !bad[g]; ++i)
+    for (std::size_t i = 0; i < Gap::kInside && !bad[g]; ++i)
       if (comparison.error(index(gap.begin), index(gap.end), index(gap.inside(i))) > tolerance)
         bad[g] = 1;
   });
@@ -102,7 +90,7 @@ std::optional<std::vector<double>> insert_frames(const Evaluator& evaluator,
   };
   for (std::size_t i = 1; i < times.size(); ++i) add({times[i - 1], times[i]});
   while (!gaps.empty()) {
-    const auto count = static_cast<double>(times.size() + gaps.size() * (kInside + 1));
+    const auto count = static_cast<double>(times.size() + gaps.size() * (Gap::kInside + 1));
     if (!check_frame_count(count, evaluator.width(), diagnostics)) return std::nullopt;
     const auto motion = evaluator.run(times_of(gaps), threads, diagnostics);
     if (!motion) return std::nullopt;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "bake/gaps.h"
 #include "bake/joints.h"
 #include "bake/motion.h"
 #include "base/trace.h"
@@ -12,9 +13,7 @@
 namespace rigc::bake {
 namespace {
 
-constexpr std::size_t kInside = 3;   // times in a gap at which it is looked at
 constexpr std::size_t kBlock = 256;  // gaps that a thread measures in a row
-constexpr double kShortest = 1e-3;   // seconds
 
 /// Between two frames of unit axes, radians.
 double angle_between(const math::Mat3& a, const math::Mat3& b) {
@@ -82,16 +81,6 @@ class Rig {
   std::vector<int> places_;  // in bodies_, by aim; -1: a bake does not touch it
 };
 
-struct Gap {
-  double begin, end;
-  double inside(std::size_t i) const {
-    const double share = static_cast<double>(i + 1) / (kInside + 1);
-    return static_cast<double>(static_cast<float>(begin + (end - begin) * share));
-  }
-  double middle() const { return inside(kInside / 2); }
-  bool is_wide() const { return end - begin > kShortest && middle() > begin && middle() < end; }
-};
-
 Gap gap_at(const std::vector<double>& times, std::size_t i) {
   return {times[i], times[std::min(i + 1, times.size() - 1)]};
 }
@@ -108,14 +97,14 @@ class Measurement {
     for (std::size_t i = first; i < last; ++i) {
       const Gap gap = gap_at(times_, gaps_[i]);
       times.push_back(gap.begin);
-      for (std::size_t k = 0; k < kInside; ++k) times.push_back(gap.inside(k));
+      for (std::size_t k = 0; k < Gap::kInside; ++k) times.push_back(gap.inside(k));
       times.push_back(gap.end);
     }
     const auto motion = rig_.run(std::move(times), threads, diagnostics);
     if (!motion) return;
     const auto wanted = play(aims_, motion->times);
     for (std::size_t i = first; i < last; ++i)
-      off_[gaps_[i]] = measure_gap(wanted, *motion, (i - first) * (kInside + 2));
+      off_[gaps_[i]] = measure_gap(wanted, *motion, (i - first) * (Gap::kInside + 2));
   }
 
  private:
@@ -125,9 +114,9 @@ class Measurement {
   GapOff measure_gap(const Worlds& wanted, const Motion& motion, std::size_t frame) const {
     GapOff off;
     const double at_begin = compare(wanted, motion, frame, off.at_ends);
-    const double at_end = compare(wanted, motion, frame + kInside + 1, off.at_ends);
+    const double at_end = compare(wanted, motion, frame + Gap::kInside + 1, off.at_ends);
     double inside = 0;
-    for (std::size_t k = 1; k <= kInside; ++k)
+    for (std::size_t k = 1; k <= Gap::kInside; ++k)
       inside = std::max(inside, compare(wanted, motion, frame + k, off.inside));
     off.excess = inside - std::max(at_begin, at_end);
     return off;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// --trace and --time of build, update and bake: what is in them, and that nothing else changes.
+// --trace and --time of build, update, bake and transfer: what is in them, and that nothing else
+// changes.
 #include <doctest/doctest.h>
 
 #include <algorithm>
