@@ -72,7 +72,9 @@ void write_back(const gltf::File& file, const std::string& bytes) {
   const auto shorter = back.finish(file.binary, diagnostics);
   fuzz::expect(shorter.has_value(), "a node can be taken away");
   const auto restored = gltf::open(kName, bytes_of(*shorter), diagnostics);
-  fuzz::expect(restored && restored->root().text() == file.root().text(),
+  fuzz::expect(restored.has_value(), "a node appended and taken away: the file opens");
+  if (nodes == 0 && file.root()["nodes"]) return;  // only `before` of a rig tells an empty list
+  fuzz::expect(restored->root().text() == file.root().text(),
                "a node appended and taken away: same JSON");
 }
 

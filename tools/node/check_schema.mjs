@@ -14,6 +14,7 @@ for (const path of gltfFiles(paths)) {
   rigs += 1;
   if (validate(rig)) continue;
   failures += 1;
+  if (failures > 5) continue;
   for (const { instancePath, message, params } of validate.errors.slice(0, 20)) {
     console.error(`${path}#/extensions/RIGC_rig${instancePath}: ${message} ${JSON.stringify(params)}`);
   }
