@@ -27,6 +27,8 @@ bool run_process(std::vector<std::string> words);
 /// Processor seconds of all programs that have been run so far.
 double children_seconds();
 
+/// Features of the biped, NAME=on|off: everything that it has, with the spine on a curve.
+std::vector<std::string> all_features();
 /// A character of the corpus, by its path there; empty where there is no corpus.
 std::string corpus_file(const std::string& path);
 /// A file of the benchmarks' own in the folder for temporary ones.

@@ -99,25 +99,52 @@ void make_ik_chains(Rig& rig, int chains) {
   }
 }
 
+enum class Biped {
+  plain,      // with the features that are on by default
+  full,       // with all features
+  full_keyed  // the same with all numbers of controls animated too, but the size of the whole
+};
+
+/// Numbers that scale a transform as they are.
+std::set<scene::Plug> sizes(const scene::Scene& scene) {
+  std::set<scene::Plug> found;
+  for (const NodeId id : scene.nodes())
+    for (const scene::Connection& c : scene[id].inputs)
+      if (scene::spec(scene[id].kind).is_transform && c.to.attribute == transform::kScale)
+        found.insert(c.from);
+  return found;
+}
+
+void add_numbers(Rig& rig, NodeId control, const std::set<scene::Plug>& without) {
+  const auto& numbers = rig.scene[control].user;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const scene::Plug plug{control, static_cast<std::uint16_t>(scene::kUserAttributes + i)};
+    if (numbers[i].keyable && !without.count(plug)) rig.request.inputs.push_back(plug);
+  }
+}
+
 /// The biped with translation and rotation of all controls as inputs, all joints' worlds as
 /// outputs; false where it cannot be built.
-bool make_biped(Rig& rig) {
+bool make_biped(Rig& rig, Biped which = Biped::plain) {
   Diagnostics diagnostics;
   pipeline::BuildRequest request;
+  if (which != Biped::plain) request.features = bench::all_features();
   request.paths.templates = {std::string(RIGC_SOURCE_DIR) + "/templates"};
   request.template_file = request.paths.templates[0] + "/biped.yaml";
   const auto prepared = pipeline::prepare(request, diagnostics);
   std::size_t skipped = 0;
-  auto built = prepared
-                   ? pipeline::run_commands(*prepared, prepared->catalogue, skipped, diagnostics)
-                   : std::nullopt;
+  auto built =
+      prepared ? pipeline::run_commands(*prepared, prepared->catalogue, {}, skipped, diagnostics)
+               : std::nullopt;
   if (!built) return false;
   rig.scene = std::move(built->scene);
+  const std::set<scene::Plug> without = sizes(rig.scene);
   for (const NodeId id : rig.scene.nodes()) {
     const Kind kind = rig.scene[id].kind;
     if (kind == Kind::control)
       for (const std::uint16_t attribute : {transform::kTranslate, transform::kRotation})
         rig.request.inputs.push_back({id, attribute});
+    if (kind == Kind::control && which == Biped::full_keyed) add_numbers(rig, id, without);
     if (kind == Kind::joint) rig.request.outputs.push_back({id, transform::kWorld});
   }
   return true;
@@ -130,7 +157,9 @@ void pose(const Rig& rig, eval::Instance& instance) {
       const double s = 0.1 * math::sin(0.7 * static_cast<double>(i) + 0.3 * lane);
       const math::Quat q = math::normalised(math::Quat{s, 0.5 * s, -s, 1});
       const double turn[] = {q.x, q.y, q.z, q.w}, offset[] = {s, 0.1 * s, -s};
-      const bool turns = rig.request.inputs[i].attribute == transform::kRotation;
+      const std::uint16_t attribute = rig.request.inputs[i].attribute;
+      if (attribute >= scene::kUserAttributes) continue;
+      const bool turns = attribute == transform::kRotation;
       eval::set_lane(instance.input(i), lane, turns ? turn : offset, turns ? 4 : 3);
     }
 }
@@ -173,11 +202,11 @@ void run(benchmark::State& state, Make make, int nodes, bool against_bound, eval
   if (against_bound) state.counters["ratio"] = seconds / bench::bound_seconds(isa);
 }
 
-void run_biped(benchmark::State& state, eval::Isa isa) {
+void run_biped(benchmark::State& state, Biped which, eval::Isa isa) {
   Rig rig;
   Diagnostics diagnostics;
   const auto program =
-      make_biped(rig) ? eval::compile(rig.scene, rig.request, diagnostics) : std::nullopt;
+      make_biped(rig, which) ? eval::compile(rig.scene, rig.request, diagnostics) : std::nullopt;
   if (!program) return state.SkipWithError("the biped does not compile");
   const double seconds = run_blocks(state, rig, *program, isa);
   const auto live = static_cast<double>(live_transforms(rig.scene, *program));
@@ -245,9 +274,9 @@ void compile(benchmark::State& state, Make make, int nodes) {
   state.counters["ns"] = seconds * 1e9 / nodes;
 }
 
-void compile_biped(benchmark::State& state) {
+void compile_biped(benchmark::State& state, Biped which) {
   Rig rig;
-  if (!make_biped(rig)) return state.SkipWithError("the biped cannot be built");
+  if (!make_biped(rig, which)) return state.SkipWithError("the biped cannot be built");
   const double seconds = bench::least_seconds(state, [&] {
     Diagnostics diagnostics;
     benchmark::DoNotOptimize(eval::compile(rig.scene, rig.request, diagnostics));
@@ -275,9 +304,19 @@ void rigc::bench::add_eval_benchmarks() {
       {"tree/100000", make_tree, 100'000, true},     {"ik_two_bone/20", make_two_bones, 20, false},
       {"ik_chain/10", make_ik_chains, 10, false},
   };
-  for (const eval::Isa isa : eval::available_isas())
-    benchmark::RegisterBenchmark(evaluate_name("biped", isa).c_str(), run_biped, isa);
-  benchmark::RegisterBenchmark("compile/biped", compile_biped)->Unit(benchmark::kMicrosecond);
+  const struct {
+    const char* name;
+    Biped which;
+  } bipeds[] = {
+      {"biped", Biped::plain}, {"biped_all", Biped::full}, {"biped_all_keyed", Biped::full_keyed}};
+  for (const auto& biped : bipeds) {
+    for (const eval::Isa isa : eval::available_isas())
+      benchmark::RegisterBenchmark(evaluate_name(biped.name, isa).c_str(), run_biped, biped.which,
+                                   isa);
+    benchmark::RegisterBenchmark(("compile/" + std::string(biped.name)).c_str(), compile_biped,
+                                 biped.which)
+        ->Unit(benchmark::kMicrosecond);
+  }
   benchmark::RegisterBenchmark("first_block/biped", first_block)->Unit(benchmark::kMicrosecond);
   for (const auto& rig : rigs) {
     const std::string name = rig.name;

@@ -3,6 +3,7 @@
 // included: a program of sixteen of them, small enough for the first cache, over random input.
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <map>
 #include <random>
 #include <string>
@@ -11,6 +12,7 @@
 #include "bench/bench.h"
 #include "eval/kernels/table.h"
 #include "eval/program.h"
+#include "math/generic/spline.h"
 #include "math/math.h"
 
 namespace {
@@ -20,7 +22,7 @@ using eval::Op;
 using Numbers = std::vector<double>;
 
 constexpr int kInstructions = 16;
-constexpr int kTargets = 2, kChainJoints = 8;
+constexpr int kTargets = 2, kChainJoints = 8, kSplineControls = 5, kSplineOutputs = 6;
 
 /// What random numbers an argument has.
 enum class Kind { number, angle, angles, vector, scale, rotation, matrix };
@@ -43,6 +45,22 @@ Numbers limit_table() {
   return joined({{-10, -10, -10, 10, 10, 10}, {0, 0, 0, 1}, {0, 0, 0}, {0, 0, 0, 1}, {0, 1, 2}});
 }
 
+/// Outputs spread over the curve, which aim at each other; `moves`: lengths may be kept.
+Numbers spline_table(double moves) {
+  Numbers data{kSplineControls, kSplineOutputs, 1, moves, 0, 4};
+  for (int i = 0; i < kSplineControls; ++i) data.insert(data.end(), {0, 1, 0, 1, 0, 1, 0, 0, 0, 1});
+  for (int k = 0; k < kSplineOutputs; ++k) {
+    const double x = static_cast<double>(k) * (kSplineControls - 1) / kSplineOutputs;
+    const double segment = std::floor(x), t = x - segment;
+    data.insert(data.end(), {segment, t});
+    for (const auto& b : {math::generic::place_basis(t), math::generic::slope_basis(t)})
+      data.insert(data.end(), {b.from, b.leaving, b.to, b.arriving});
+    data.insert(data.end(), {x, 0.8});
+    data.insert(data.end(), kIdentity.begin(), kIdentity.end());
+  }
+  return data;
+}
+
 /// The kinds of instructions that are no formulas, by their names in the table.
 const std::map<std::string, Form>& forms() {
   using K = Kind;
@@ -53,6 +71,8 @@ const std::map<std::string, Form>& forms() {
   std::vector<K> chain(4 + kChainJoints, v);
   chain[0] = chain[1] = chain[2] = m;
   chain[3] = a;
+  std::vector<K> spline(4 + kSplineControls, m);
+  spline[1] = spline[2] = spline[3] = n;
   static const std::map<std::string, Form> table = {
       {"compose", {{v, q, s}, 12, {}}},
       {"compose_rigid", {{v, q}, 12, {}}},
@@ -75,8 +95,32 @@ const std::map<std::string, Form>& forms() {
         joined({{0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 1}})}},
       {"ik_chain",
        {chain, 4 * (kChainJoints - 1), joined({{kChainJoints, 1, 32}, {0, 0, 0}, rests})}},
+      {"spline", {spline, 2 + 12 * kSplineOutputs, spline_table(0)}},
       {"limit_vector", {{v}, 3, limit_table()}},
       {"limit_rotation", {{q}, 4, limit_table()}},
+      {"vector_add", {{v, v}, 3, {}}},
+      {"vector_subtract", {{v, v}, 3, {}}},
+      {"vector_scale", {{v, n}, 3, {}}},
+      {"vector_multiply", {{v, v}, 3, {}}},
+      {"vector_lerp", {{v, v, n}, 3, {}}},
+      {"dot", {{v, v}, 1, {}}},
+      {"cross", {{v, v}, 3, {}}},
+      {"length", {{v}, 1, {}}},
+      {"normalise", {{v}, 3, {}}},
+      {"rotation_multiply", {{q, q}, 4, {}}},
+      {"rotation_inverse", {{q}, 4, {}}},
+      {"rotation_apply", {{q, v}, 3, {}}},
+      {"rotation_slerp", {{q, q, n}, 4, {}}},
+      {"axis_angle", {{v, a}, 4, {}}},
+      {"twist_angle", {{q, v}, 1, {}}},
+      {"between", {{v, v}, 4, {}}},
+      {"aim_rotation", {{v, v}, 4, {}}},
+      {"matrix_rotation", {{m}, 4, {}}},
+      {"matrix_scale", {{m}, 3, {}}},
+      {"matrix_inverse", {{m}, 12, {}}},
+      {"transform_point", {{m, v}, 3, {}}},
+      {"transform_vector", {{m, v}, 3, {}}},
+      {"choose", {{n, m, m}, 12, {}}},
       {"remap", {{n, n, n, n, n}, 1, {1, 3, 0, 0, 2, 0, 0.5, 0.8, 1, 0, 1, 1, 1, 0}}},
   };
   return table;

@@ -73,7 +73,7 @@ enum class Step : std::uint8_t {
   to_euler,
   limit,    // what it needs, clamped
   compose,  // translate, rotation, scale [, parent's world]
-  block     // the instructions of a node
+  block     // the instructions of a node, or of one output of it
 };
 
 struct Plan {
@@ -90,7 +90,9 @@ class Compiler {
         diagnostics_(diagnostics),
         before_(diagnostics.errors()),
         limits_(scene, diagnostics),
-        worlds_(scene.size()) {}
+        worlds_(scene.size()) {
+    known_.reserve(2 * scene.size());
+  }
 
   std::optional<Program> compile(const Request& request) {
     const trace::Span span("compile");
@@ -261,7 +263,7 @@ class Compiler {
     return {Step::alias, {of}, offset, width};
   }
 
-  Plan plan(const Key& key) const {
+  Plan plan(const Key& key) {
     const Plug& plug = key.plug;
     if (plug.attribute == kBlock) return plan_block(plug.node);
     if (key.layer == Layer::limited && limits_.apply_to(plug)) return plan_limited(plug);
@@ -279,8 +281,14 @@ class Compiler {
     return plan;
   }
 
-  Plan plan_output(const Plug& plug) const {
-    const OutputPlace place = rule(scene_[plug.node].kind).place(plug);
+  Plan plan_output(const Plug& plug) {
+    const KindRule& of = rule(scene_[plug.node].kind);
+    if (of.reads_of) {
+      Plan plan{Step::block, {}, 0, 0};
+      for (const Plug& read : of.reads_with(programs_, scene_, plug)) plan.needs.push_back({read});
+      return plan;
+    }
+    const OutputPlace place = of.place(plug);
     const Key block{{plug.node, kBlock}};
     return {place.euler ? Step::to_euler : Step::alias, {block}, place.offset, place.width};
   }
@@ -391,7 +399,7 @@ class Compiler {
       case Step::block:
         break;
     }
-    return build_block(key.plug.node, operands);
+    return build_block(key.plug, operands);
   }
 
   // A block may have fewer outputs than somebody asks for, and none where its node is wrong.
@@ -426,9 +434,13 @@ class Compiler {
     return emit_world(emitter_, placement, node);
   }
 
-  Operand build_block(NodeId node, const std::vector<Operand>& operands) {
-    const auto emitted =
-        rule(scene_[node].kind).emit(emitter_, scene_, node, operands, diagnostics_);
+  Operand build_block(const Plug& plug, const std::vector<Operand>& operands) {
+    const KindRule& of = rule(scene_[plug.node].kind);
+    if (plug.attribute != kBlock) {
+      const auto emitted = of.emit_of(emitter_, programs_, scene_, plug, operands, diagnostics_);
+      return emitted ? *emitted : slice(nothing_, 0, width_of({plug}));
+    }
+    const auto emitted = of.emit(emitter_, scene_, plug.node, operands, diagnostics_);
     return emitted ? *emitted : slice(nothing_, 0, 0);
   }
 
@@ -437,6 +449,7 @@ class Compiler {
   std::size_t before_;
   Limits limits_;
   Emitter emitter_;
+  Programs programs_;
   Operand nothing_ = emitter_.constant(std::array<double, 12>{});  // of what is wrong
   std::vector<Operand> inputs_;
   std::vector<Varying> varying_;              // inputs, in the order of their plugs

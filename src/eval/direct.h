@@ -13,11 +13,10 @@
 // It is done where all of this holds, else the general path is taken:
 // - the rotation comes whole from one constraint or aim, with no limit, lock or component between,
 //   whose parent is the transform's own;
-// - parent and targets are similarities for certain (Definition::scale): animated, uneven,
-//   negative or zero scales anywhere above them are not, nor are worlds of scaled chains;
+// - parent and targets are similarities for certain (Definition::factor): where anything above is
+//   scaled unevenly, or by what may be negative or 0, they are not;
 // - offsets span space (mirrored and uneven ones may);
-// - the scale comes from the same constraint or is constant;
-// - of several targets: all would give the transform the same size.
+// - of several targets: all would give the transform the same constant size.
 // Test: tests/eval/direct_test.cpp
 #pragma once
 

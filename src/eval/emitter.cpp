@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "eval/similarity.h"
+#include "eval/simplify.h"
 #include "eval/values.h"
 
 namespace rigc::eval {
@@ -25,13 +26,6 @@ std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
 bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
-
-double even_scale(std::span<const double> xyz) {
-  return xyz[0] > 0 && xyz[0] == xyz[1] && xyz[1] == xyz[2] ? xyz[0] : 0;
-}
-
-// The data of what computes its own axes: where they lie in it is in kernels/table.h.
-constexpr std::size_t kAimWorldLinear = 2;
 
 }  // namespace
 
@@ -145,6 +139,7 @@ Operand Emitter::emit(Op op, std::span<const Operand> arguments, std::span<const
   assert(row(op).arguments < 0 || row(op).arguments == static_cast<int>(arguments.size()));
   if (std::ranges::all_of(arguments, [&](const Operand& a) { return is_constant(a); }))
     return fold(op, arguments, table, width);
+  if (const auto known = simplified(*this, op, arguments, node)) return *known;
   Definition d;
   d.source = Source::computed;
   d.op = op;
@@ -157,46 +152,10 @@ Operand Emitter::emit(Op op, std::span<const Operand> arguments, std::span<const
   arguments_.insert(arguments_.end(), arguments.begin(), arguments.end());
   data_.insert(data_.end(), table.begin(), table.end());
   values_.push_back(d);
-  const double scale = scale_of_newest();
-  values_.back().scale = scale >= kLeastScale && scale <= kMostScale ? scale : 0;
+  const Factor factor = factor_of_newest();
+  const bool moderate = factor.number >= kLeastScale && factor.number <= kMostScale;
+  values_.back().factor = moderate ? factor : Factor{};
   return whole(unify());
-}
-
-double Emitter::scale_of_newest() const {
-  const Definition& d = values_.back();
-  const std::span<const Operand> a = arguments(d);
-  switch (d.op) {
-    case Op::compose_rigid:
-    case Op::compose_under:
-    case Op::blend:
-      return 1;
-    case Op::compose:
-      return is_constant(a[2]) ? even_scale(numbers(a[2])) : 0;
-    case Op::multiply:
-      return scale(a[0]) * scale(a[1]);
-    case Op::hang:
-      return scale(a[1]) * uniform_scale(mat3_from(data(d).data()));
-    case Op::hang_straight:
-    case Op::place:
-      return scale(a[1]);
-    case Op::aim_world:
-      return uniform_scale(mat3_from(data(d).data() + kAimWorldLinear));
-    default:
-      return 0;
-  }
-}
-
-double Emitter::scale(const Operand& operand) const {
-  if (operand.width != 12) return 0;
-  if (is_constant(operand)) return uniform_scale(matrix(operand).linear);
-  const Definition& d = definition(operand);
-  if (d.op != Op::ik_two_bone) return operand.offset == 0 && d.width == 12 ? d.scale : 0;
-  // The worlds of start and middle: scaled as base, start and, of the second, middle.
-  const std::span<const Operand> a = arguments(d);
-  double product = scale(a[0]);
-  for (std::size_t i = 0; i <= operand.offset / 12; ++i)
-    product *= is_constant(a[7 + i]) ? even_scale(numbers(a[7 + i])) : 0;
-  return product;
 }
 
 }  // namespace rigc::eval

@@ -27,6 +27,12 @@ inline Operand slice(Operand whole, std::uint32_t offset, std::uint32_t width) {
   return {whole.value, whole.offset + offset, width};
 }
 
+/// A factor that is positive for certain: a number times powers of others that vary.
+struct Factor {
+  double number = 0;         ///< 0: nothing is known
+  std::uint32_t powers = 0;  ///< which product of powers, as an Emitter counts them; 0: none vary
+};
+
 enum class Source : std::uint8_t { constant, input, computed };
 
 /// Where a value comes from.
@@ -39,9 +45,7 @@ struct Definition {
   std::uint32_t data = 0;  ///< among all data: the table; of a constant or input its numbers
   std::uint32_t data_count = 0;
   std::uint32_t node = 0;  ///< index of the scene node that it was first emitted for
-  /// Of a matrix that is for certain a rotation times one positive factor (and an origin): that
-  /// factor. 0 of anything else.
-  double scale = 0;
+  Factor factor;           ///< of a matrix that is for certain a rotation times it (and an origin)
 };
 
 class Emitter {
@@ -72,12 +76,29 @@ class Emitter {
   }
   std::span<const double> numbers(const Operand& constant) const;
   math::Affine matrix(const Operand& constant) const;
-  /// Definition::scale of a matrix that need not be the whole of its value.
-  double scale(const Operand& matrix) const;
+  /// Definition::factor of a matrix that need not be the whole of its value.
+  Factor factor(const Operand& matrix);
+  /// The same where it is constant, else 0.
+  double scale(const Operand& matrix);
+  /// Of a vector whose components are one positive number: that number.
+  Factor even_factor(const Operand& vector);
+  Factor product(Factor a, Factor b);
+  Factor inverse(Factor of);
+  /// A known factor as a number.
+  Operand number_of(Factor factor, std::uint32_t node);
 
   const std::vector<Definition>& values() const { return values_; }
 
  private:
+  struct Power {
+    Operand number;
+    int exponent;
+    bool operator==(const Power&) const = default;
+  };
+  using Powers = std::vector<Power>;  // in the order of their operands, none to the power 0
+
+  std::uint32_t index_of(Powers powers);
+
   // A place of the index: open addressing, a power of two of them, at most half of them taken.
   struct Slot {
     std::uint32_t hash = 0;
@@ -89,7 +110,8 @@ class Emitter {
   std::uint32_t unify();
   Operand fold(Op op, std::span<const Operand> arguments, std::span<const double> data,
                std::uint32_t width);
-  double scale_of_newest() const;
+  Factor factor_of_newest();
+  Factor number_factor(const Operand& number, int depth);
   std::uint32_t hash_of(const Definition& definition) const;
   bool same(const Definition& a, const Definition& b) const;
   void grow();
@@ -99,7 +121,8 @@ class Emitter {
   std::vector<double> data_;
   std::vector<Slot> index_;  // by what values are, to find equal ones
   std::size_t indexed_ = 0;
-  std::vector<double> registers_;  // of folding
+  std::vector<Powers> powers_{{}};  // what Factor::powers counts
+  std::vector<double> registers_;   // of folding
 };
 
 }  // namespace rigc::eval

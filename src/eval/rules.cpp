@@ -32,6 +32,12 @@ constexpr std::array<KindRule, static_cast<std::size_t>(Kind::count)> kRules = {
     {Kind::limits, nullptr, nullptr, nullptr},
     {Kind::display_layer, nullptr, nullptr, nullptr},
     {Kind::control_set, nullptr, nullptr, nullptr},
+    {Kind::compute, nullptr, nullptr, nullptr, compute_reads, compute_reads_with, compute_emit},
+    {Kind::spline, spline_reads, spline_emit, spline_place},
+    {Kind::skin_split, nullptr, nullptr, nullptr},
+    {Kind::match, nullptr, nullptr, nullptr},
+    {Kind::morph, nullptr, nullptr, nullptr},
+    {Kind::spaces, nullptr, nullptr, nullptr},
 }};
 
 constexpr bool complete() {
@@ -39,7 +45,9 @@ constexpr bool complete() {
     const KindRule& r = kRules[i];
     const bool all = r.reads && r.emit && r.place;
     const bool none = !r.reads && !r.emit && !r.place;
+    const bool each = r.reads_of && r.reads_with && r.emit_of;
     if (static_cast<std::size_t>(r.kind) != i || !(all || none)) return false;
+    if ((r.reads_of || r.reads_with || r.emit_of) && !(each && none)) return false;
   }
   return true;
 }

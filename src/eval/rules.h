@@ -4,10 +4,13 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "base/diagnostics.h"
 #include "eval/emitter.h"
+#include "scene/formula.h"
 #include "scene/scene.h"
 
 namespace rigc::eval {
@@ -17,6 +20,17 @@ struct OutputPlace {
   std::uint32_t offset = 0;
   std::uint32_t width = 0;
   bool euler = false;  ///< the angles of the rotation that lies there
+};
+
+/// The programs of compute nodes that were parsed, by their text: many nodes have the same.
+class Programs {
+ public:
+  /// Null where it is wrong; `emit_of` then parses it again, to say why.
+  const scene::Formula* of(const scene::Scene& scene, scene::NodeId node);
+
+ private:
+  std::unordered_map<std::uint32_t, const scene::Formula*> by_node_;
+  std::unordered_map<std::string, std::optional<scene::Formula>> parsed_;  // by text
 };
 
 struct KindRule {
@@ -29,6 +43,15 @@ struct KindRule {
   std::optional<Operand> (*emit)(Emitter&, const scene::Scene&, scene::NodeId,
                                  const std::vector<Operand>& arguments, Diagnostics&);
   OutputPlace (*place)(const scene::Plug& output);
+  /// Instead of these, of a kind whose outputs are computed each for itself, so that one may depend
+  /// on what another drives.
+  std::vector<scene::Plug> (*reads_of)(const scene::Scene&, const scene::Plug& output) = nullptr;
+  /// The same for who asks often.
+  std::vector<scene::Plug> (*reads_with)(Programs&, const scene::Scene&,
+                                         const scene::Plug& output) = nullptr;
+  std::optional<Operand> (*emit_of)(Emitter&, Programs&, const scene::Scene&,
+                                    const scene::Plug& output,
+                                    const std::vector<Operand>& arguments, Diagnostics&) = nullptr;
 };
 
 const KindRule& rule(scene::Kind kind);

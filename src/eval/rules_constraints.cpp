@@ -2,7 +2,9 @@
 // Rules of the weighted constraints and of aim. Test: tests/eval/compile_test.cpp
 #include <fmt/format.h>
 #include "eval/codes.h"
+#include "eval/kernels/constraint_table.h"
 #include "eval/rules_of_kinds.h"
+#include "eval/similarity.h"
 #include "eval/values.h"
 
 namespace rigc::eval {
@@ -10,6 +12,7 @@ namespace rigc::eval {
 namespace {
 
 namespace constraint = scene::constraint;
+namespace table = constraint_table;
 namespace aim = scene::aim;
 
 // Each target, then its weight.
@@ -35,6 +38,25 @@ std::vector<std::size_t> taking_part(const Emitter& emitter, const Operands& arg
     if (constant && emitter.numbers(weight)[0] > 0) weighted.push_back(i);
   }
   return constant && !weighted.empty() ? weighted : all;
+}
+
+// Where parent and targets are rotations times factors that are known: what the short way needs.
+void add_even(Emitter& emitter, const Operands& used, std::vector<double>& data) {
+  const double parent = emitter.scale(used[0]);
+  if (parent == 0) return;
+  std::vector<double> more{1 / (parent * parent)};
+  for (std::size_t i = 0; 1 + 2 * i < used.size(); ++i) {
+    const double target = emitter.scale(used[1 + 2 * i]);
+    const math::Affine offset = affine_from(data.data() + table::offset(i));
+    if (target == 0 || !spans_space(offset.linear)) return;
+    const math::Trs parts = math::decompose(offset);
+    for (const double n : columns_of(math::matrix(parts.rotation)))
+      more.push_back(n / (parent * target));
+    const math::Vec3 scale = parts.scale * (target / parent);
+    more.insert(more.end(), {scale.x, scale.y, scale.z});
+  }
+  data[table::kWay] = table::kEven;
+  data.insert(data.end(), more.begin(), more.end());
 }
 
 }  // namespace
@@ -81,7 +103,8 @@ std::optional<Operand> constraint_emit(Emitter& emitter, const scene::Scene& sce
   std::vector<double> all_offsets;
   append(all_offsets, scene, node, constraint::kOffsets);
   const std::vector<std::size_t> targets = taking_part(emitter, arguments, count);
-  std::vector<double> data{static_cast<double>(targets.size()), point ? 1.0 : 0.0};
+  std::vector<double> data{static_cast<double>(targets.size()),
+                           point ? table::kPoint : table::kGeneral};
   Operands used{arguments[0]};
   for (const std::size_t i : targets) {
     used.insert(used.end(), {arguments[1 + 2 * i], arguments[2 + 2 * i]});
@@ -90,6 +113,7 @@ std::optional<Operand> constraint_emit(Emitter& emitter, const scene::Scene& sce
   }
   // What weighs alone weighs all.
   if (targets.size() == 1) used[2] = emitter.constant({1});
+  if (!point) add_even(emitter, used, data);
   return emitter.emit(Op::constraint, used, data, 10, node.index);
 }
 

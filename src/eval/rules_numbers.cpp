@@ -4,25 +4,13 @@
 
 #include <fmt/format.h>
 #include "eval/rules_of_kinds.h"
-#include "scene/formula.h"
 
 namespace rigc::eval {
 
 namespace {
 
-using scene::FormulaOp;
 namespace expression = scene::expression;
 namespace remap_at = scene::remap;
-
-// The kernels of formulas have the order of FormulaOp from negate on.
-constexpr Op kernel_of(FormulaOp op) {
-  return static_cast<Op>(static_cast<int>(Op::negate) + static_cast<int>(op) -
-                         static_cast<int>(FormulaOp::negate));
-}
-static_assert(kernel_of(FormulaOp::add) == Op::add && kernel_of(FormulaOp::select) == Op::select &&
-              kernel_of(FormulaOp::atan2) == Op::atan2 &&
-              kernel_of(FormulaOp::round) == Op::round &&
-              kernel_of(FormulaOp::hypot) == Op::hypot && kernel_of(FormulaOp::count) == Op::count);
 
 struct CurvePoint {
   double position, value, interpolation, tangent;
@@ -74,20 +62,13 @@ std::optional<Operand> expression_emit(Emitter& emitter, const scene::Scene& sce
   const auto formula = scene::parse_formula(code, scene[node].origin.span,
                                             static_cast<int>(arguments.size()), diagnostics);
   if (!formula) return std::nullopt;
-  Operands stack;
-  for (const scene::Formula::Step& step : formula->steps) {
-    if (step.op == FormulaOp::constant) {
-      stack.push_back(emitter.constant({step.value}));
-    } else if (step.op == FormulaOp::input) {
-      stack.push_back(arguments[static_cast<std::size_t>(step.input)]);
-    } else {
-      const auto first = stack.end() - scene::arity(step.op);
-      const Operands taken(first, stack.end());
-      stack.erase(first, stack.end());
-      stack.push_back(emitter.emit(kernel_of(step.op), taken, {}, 1, node.index));
-    }
+  Operands inputs(formula->steps.size());
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const scene::Formula::Step& step = formula->steps[i];
+    if (step.op == scene::FormulaOp::input)
+      inputs[i] = arguments[static_cast<std::size_t>(step.input)];
   }
-  return stack.back();
+  return emit_steps(emitter, *formula, formula->result, inputs, node.index);
 }
 
 Plugs remap_reads(const scene::Scene&, scene::NodeId node) {

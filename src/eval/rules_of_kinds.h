@@ -4,6 +4,7 @@
 #pragma once
 
 #include "eval/rules.h"
+#include "scene/formula.h"
 
 namespace rigc::eval {
 
@@ -31,6 +32,23 @@ Plugs chain_reads(const scene::Scene& scene, scene::NodeId node);
 std::optional<Operand> chain_emit(Emitter& emitter, const scene::Scene& scene, scene::NodeId node,
                                   const Operands& arguments, Diagnostics& diagnostics);
 OutputPlace chain_place(const scene::Plug& output);
+
+// rules_compute.cpp
+Plugs compute_reads(const scene::Scene& scene, const scene::Plug& output);
+Plugs compute_reads_with(Programs& programs, const scene::Scene& scene, const scene::Plug& output);
+std::optional<Operand> compute_emit(Emitter& emitter, Programs& programs, const scene::Scene& scene,
+                                    const scene::Plug& output, const Operands& arguments,
+                                    Diagnostics& diagnostics);
+/// The instructions of the steps of a formula that `step` needs; `inputs`: of each input step, by
+/// the step's index.
+Operand emit_steps(Emitter& emitter, const scene::Formula& formula, int step,
+                   const Operands& inputs, std::uint32_t node);
+
+// rules_spline.cpp
+Plugs spline_reads(const scene::Scene& scene, scene::NodeId node);
+std::optional<Operand> spline_emit(Emitter& emitter, const scene::Scene& scene, scene::NodeId node,
+                                   const Operands& arguments, Diagnostics& diagnostics);
+OutputPlace spline_place(const scene::Plug& output);
 
 // rules_numbers.cpp
 Plugs expression_reads(const scene::Scene& scene, scene::NodeId node);

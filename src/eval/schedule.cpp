@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "eval/kernels/spline_table.h"
+
 namespace rigc::eval {
 
 namespace {
@@ -48,12 +50,18 @@ class Scheduler {
       : emitter_(emitter),
         order_(order_of(emitter, outputs)),
         rows_(emitter.values().size(), kNoRow),
-        last_use_(emitter.values().size(), kNever) {
+        last_use_(emitter.values().size(), kNever),
+        first_read_(emitter.values().size(), kNoRow) {
     for (std::uint32_t step = 0; step < order_.size(); ++step) {
-      for (const Operand& a : emitter.arguments(emitter.values()[order_[step]]))
+      for (const Operand& a : emitter.arguments(emitter.values()[order_[step]])) {
         last_use_[a.value] = step;
+        read(a);
+      }
     }
-    for (const Operand& output : outputs) last_use_[output.value] = kNever;
+    for (const Operand& output : outputs) {
+      last_use_[output.value] = kNever;
+      read(output);
+    }
   }
 
   Program take(const std::vector<Operand>& inputs, const std::vector<Operand>& outputs) {
@@ -70,6 +78,10 @@ class Scheduler {
   }
 
  private:
+  void read(const Operand& operand) {
+    first_read_[operand.value] = std::min(first_read_[operand.value], operand.offset);
+  }
+
   const Definition& definition(std::uint32_t value) const { return emitter_.values()[value]; }
 
   // Where an operand lies; what has no row yet and is not computed gets its own, and so do outputs.
@@ -101,6 +113,9 @@ class Scheduler {
     for (const Operand& a : emitter_.arguments(d)) program_.arguments.push_back(place(a));
     const std::span<const double> data = emitter_.data(d);
     program_.data.insert(program_.data.end(), data.begin(), data.end());
+    // A curve whose length nobody reads is not measured.
+    if (d.op == Op::spline && first_read_[order_[step]] >= spline::kFirstWorld)
+      program_.data[instruction.data + spline::kMeasures] = 0;
     // The result has rows before those of dead arguments are free: no kernel may read what it has
     // written.
     if (rows_[order_[step]] == kNoRow) rows_[order_[step]] = take_rows(d.width);
@@ -136,6 +151,7 @@ class Scheduler {
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> rows_;      // by value: the first
   std::vector<std::uint32_t> last_use_;  // by value: step; never: it is an output, or free already
+  std::vector<std::uint32_t> first_read_;  // by value: the first of its rows that anybody reads
   std::vector<std::vector<std::uint32_t>> free_;  // by width: first rows
   Program program_;
 };

@@ -28,8 +28,13 @@ inline constexpr Code kFormulaChained{
     405, Severity::error, "chained comparison",
     "Write `a < b && b < c`: `a < b < c` would compare c with 0 or 1."};
 
-inline constexpr const Code* kSceneCodes[] = {&kFormulaSyntax,    &kFormulaName,
-                                              &kFormulaArguments, &kFormulaInput,
-                                              &kFormulaTooLarge,  &kFormulaChained};
+inline constexpr Code kFormulaType{
+    406, Severity::error, "values of these types do not go together",
+    "Numbers, vectors, rotations and matrices have operators and functions of their own; the "
+    "message says what was given."};
+
+inline constexpr const Code* kSceneCodes[] = {
+    &kFormulaSyntax,   &kFormulaName,    &kFormulaArguments, &kFormulaInput,
+    &kFormulaTooLarge, &kFormulaChained, &kFormulaType};
 
 }  // namespace rigc::scene::codes

@@ -58,6 +58,36 @@ constexpr std::array<OpRow, static_cast<std::size_t>(count)> kOps = {{
     {lerp, "lerp", 3},
     {smoothstep, "smoothstep", 3},
     {hypot, "hypot", 2},
+    {vector_add, "vector_add", 2},
+    {vector_subtract, "vector_subtract", 2},
+    {vector_scale, "vector_scale", 2},
+    {vector_multiply, "vector_multiply", 2},
+    {vector_lerp, "vector_lerp", 3},
+    {dot, "dot", 2},
+    {cross, "cross", 2},
+    {length, "length", 1},
+    {normalise, "normalise", 1},
+    {rotation_multiply, "rotation_multiply", 2},
+    {rotation_inverse, "rotation_inverse", 1},
+    {rotation_apply, "rotation_apply", 2},
+    {rotation_slerp, "rotation_slerp", 3},
+    {axis_angle, "axis_angle", 2},
+    {twist_angle, "twist_angle", 2},
+    {between, "between", 2},
+    {aim_rotation, "aim_rotation", 2},
+    {matrix_rotation, "matrix_rotation", 1},
+    {matrix_scale, "matrix_scale", 1},
+    {matrix_inverse, "matrix_inverse", 1},
+    {transform_point, "transform_point", 2},
+    {transform_vector, "transform_vector", 2},
+    {choose, "choose", 3},
+    {matrix_multiply, "matrix_multiply", 2},
+    {compose, "compose", 3},
+    {compose_rigid, "compose_rigid", 2},
+    {from_euler, "from_euler", 1},
+    {to_euler, "to_euler", 1},
+    {gather, "gather", 3},
+    {component, "component", 1},
 }};
 
 constexpr bool complete() {
@@ -104,5 +134,17 @@ int arity(FormulaOp op) { return kOps[static_cast<std::size_t>(op)].arity; }
 std::string_view name_of(FormulaOp op) { return kOps[static_cast<std::size_t>(op)].name; }
 
 std::span<const FormulaFunction> formula_functions() { return kFunctions; }
+
+std::vector<bool> needed_steps(const Formula& formula, int step) {
+  std::vector<bool> needed(formula.steps.size());
+  needed[static_cast<std::size_t>(step)] = true;
+  for (std::size_t i = needed.size(); i-- > 0;) {
+    if (!needed[i]) continue;
+    for (const int argument : formula.steps[i].arguments) {
+      if (argument >= 0) needed[static_cast<std::size_t>(argument)] = true;
+    }
+  }
+  return needed;
+}
 
 }  // namespace rigc::scene

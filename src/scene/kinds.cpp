@@ -168,6 +168,77 @@ constexpr auto kControlSet = std::to_array<AttributeSpec>({
     {"members", Type::matrix, kIn, kArray, kFixed, 0, "Worlds of its controls."},
 });
 
+constexpr auto kCompute = std::to_array<AttributeSpec>({
+    {"code", Type::text, kData, kSingle, kFixed, 0,
+     "The program; it names what it takes and gives."},
+    {"numbers", Type::number, kIn, kArray, kFixed, 0, "Numbers that it takes."},
+    {"vectors", Type::vec3, kIn, kArray, kFixed, 0, "Vectors that it takes."},
+    {"rotations", Type::quat, kIn, kArray, kFixed, 0, "Rotations that it takes."},
+    {"matrices", Type::matrix, kIn, kArray, kFixed, 0, "Matrices that it takes."},
+    {"number", Type::number, kOut, kArray, kFixed, 0, "Numbers that it gives."},
+    {"vector", Type::vec3, kOut, kArray, kFixed, 0, "Vectors that it gives."},
+    {"rotation", Type::quat, kOut, kArray, kFixed, 0, "Rotations that it gives."},
+    {"matrix", Type::matrix, kOut, kArray, kFixed, 0, "Matrices that it gives."},
+});
+
+constexpr auto kSpline = std::to_array<AttributeSpec>({
+    {"base", Type::matrix, kIn, kSingle, kFixed, 0, "Lengths are measured in its scale."},
+    {"controls", Type::matrix, kIn, kArray, kFixed, 0, "What the curve passes through."},
+    {"preserve", Type::number, kIn, kSingle, kFixed, 0,
+     "0: outputs stretch with the curve; 1: they keep their distances."},
+    {"twists", Type::number, kIn, kArray, kFixed, 0,
+     "Degrees about the curve at each control, or none."},
+    {"rests", Type::matrix, kData, kArray, kFixed, 0, "Controls at rest, base space."},
+    {"follows", Type::number, kData, kArray, kFixed, 1,
+     "How much the curve's direction turns with each control."},
+    {"parameters", Type::number, kData, kArray, kFixed, 0,
+     "Place of each output along the curve: i at control i."},
+    {"places", Type::matrix, kData, kArray, kFixed, 0, "Outputs at rest, base space."},
+    {"aims", Type::number, kData, kSingle, kFixed, 0,
+     "1: outputs point at the next one; 0: along the curve."},
+    {"worlds", Type::matrix, kOut, kArray, kFixed, 0, "Where the outputs are."},
+    {"length", Type::number, kOut, kSingle, kFixed, 0, "Length of the curve, in base units."},
+    {"stretch", Type::number, kOut, kSingle, kFixed, 1, "The same relative to rest."},
+    {"least", Type::number, kIn, kSingle, kFixed, 0,
+     "How short the way of the outputs may become."},
+    {"most", Type::number, kIn, kSingle, kFixed, 1e6, "How long it may become."},
+});
+
+constexpr auto kSkinSplit = std::to_array<AttributeSpec>({
+    {"joints", Type::matrix, kIn, kArray, kFixed, 0,
+     "Worlds of the bone's joint, of its end, and of the joints that take a share."},
+    {"fractions", Type::numbers, kData, kSingle, kFixed, 0,
+     "Where along the bone all weights are of one joint: of the bone's, then of the others."},
+    {"line", Type::numbers, kData, kSingle, kFixed, 0,
+     "Points of a line in the space of the bone's joint that stands for the bone."},
+    {"surface", Type::text, kData, kSingle, kFixed, 0, "Whose vertices alone share."},
+});
+
+constexpr auto kMorph = std::to_array<AttributeSpec>({
+    {"targets", Type::text, kData, kSingle, kFixed, 0, "Names of morph targets, a line each."},
+    {"weights", Type::number, kIn, kArray, kFixed, 0, "The weight of each."},
+});
+
+constexpr auto kMatch = std::to_array<AttributeSpec>({
+    {"limb", Type::text, kData, kSingle, kFixed, 0, "Name of the limb."},
+    {"joints", Type::matrix, kIn, kArray, kFixed, 0, "Worlds of start, middle and end."},
+    {"fk", Type::matrix, kIn, kArray, kFixed, 0, "Worlds of the controls that turn these."},
+    {"ik", Type::matrix, kIn, kSingle, kFixed, 0, "World of the control of the end."},
+    {"pole", Type::matrix, kIn, kSingle, kFixed, 0, "World of the control of the middle."},
+    {"solver", Type::matrix, kIn, kSingle, kFixed, 0, "The solver's world of the start."},
+    {"switch", Type::number, kIn, kSingle, kFixed, 0, "0 is FK, 1 is IK."},
+    {"meanings", Type::text, kData, kSingle, kFixed, 0, "A word for each of the numbers."},
+    {"numbers", Type::number, kIn, kArray, kFixed, 0, "Attributes of the limb."},
+    {"held", Type::matrix, kIn, kArray, kFixed, 0, "Worlds of controls that go along with it."},
+});
+
+constexpr auto kSpaces = std::to_array<AttributeSpec>({
+    {"control", Type::matrix, kIn, kSingle, kFixed, 0, "World of the control."},
+    {"names", Type::text, kData, kSingle, kFixed, 0, "Names of the spaces."},
+    {"number", Type::number, kIn, kSingle, kFixed, 0, "Which one it follows; 0 is the first."},
+    {"shares", Type::number, kIn, kArray, kFixed, 0, "How much each counts beside it."},
+});
+
 constexpr std::array<KindSpec, static_cast<std::size_t>(Kind::count)> kKinds = {{
     {Kind::joint, "joint", true, kTransform},
     {Kind::transform, "transform", true, kTransform},
@@ -186,6 +257,12 @@ constexpr std::array<KindSpec, static_cast<std::size_t>(Kind::count)> kKinds = {
     {Kind::limits, "limits", false, kLimits},
     {Kind::display_layer, "display_layer", false, kDisplayLayer},
     {Kind::control_set, "control_set", false, kControlSet},
+    {Kind::compute, "compute", false, kCompute},
+    {Kind::spline, "spline", false, kSpline},
+    {Kind::skin_split, "skin_split", false, kSkinSplit},
+    {Kind::match, "match", false, kMatch},
+    {Kind::morph, "morph", false, kMorph},
+    {Kind::spaces, "spaces", false, kSpaces},
 }};
 
 constexpr bool complete() {
@@ -306,6 +383,52 @@ constexpr At kControlSetAt[] = {{control_set::kSet, "set"},
                                 {control_set::kMembers, "members"}};
 static_assert(std::size(kControlSet) == std::size(kControlSetAt) &&
               matches(kControlSet, kControlSetAt));
+
+constexpr At kComputeAt[] = {{compute::kCode, "code"},         {compute::kNumbers, "numbers"},
+                             {compute::kVectors, "vectors"},   {compute::kRotations, "rotations"},
+                             {compute::kMatrices, "matrices"}, {compute::kNumberOut, "number"},
+                             {compute::kVectorOut, "vector"},  {compute::kRotationOut, "rotation"},
+                             {compute::kMatrixOut, "matrix"}};
+static_assert(std::size(kCompute) == std::size(kComputeAt) && matches(kCompute, kComputeAt));
+
+constexpr At kSplineAt[] = {{spline::kBase, "base"},
+                            {spline::kControls, "controls"},
+                            {spline::kPreserve, "preserve"},
+                            {spline::kTwists, "twists"},
+                            {spline::kRests, "rests"},
+                            {spline::kFollows, "follows"},
+                            {spline::kParameters, "parameters"},
+                            {spline::kPlaces, "places"},
+                            {spline::kAims, "aims"},
+                            {spline::kWorlds, "worlds"},
+                            {spline::kLength, "length"},
+                            {spline::kStretch, "stretch"},
+                            {spline::kLeast, "least"},
+                            {spline::kMost, "most"}};
+static_assert(std::size(kSpline) == std::size(kSplineAt) && matches(kSpline, kSplineAt));
+
+constexpr At kSkinSplitAt[] = {{skin_split::kJoints, "joints"},
+                               {skin_split::kFractions, "fractions"},
+                               {skin_split::kLine, "line"},
+                               {skin_split::kSurface, "surface"}};
+static_assert(std::size(kSkinSplit) == std::size(kSkinSplitAt) &&
+              matches(kSkinSplit, kSkinSplitAt));
+
+constexpr At kMorphAt[] = {{morph::kTargets, "targets"}, {morph::kWeights, "weights"}};
+static_assert(std::size(kMorph) == std::size(kMorphAt) && matches(kMorph, kMorphAt));
+
+constexpr At kMatchAt[] = {{match::kLimb, "limb"},       {match::kJoints, "joints"},
+                           {match::kFk, "fk"},           {match::kIk, "ik"},
+                           {match::kPole, "pole"},       {match::kSolver, "solver"},
+                           {match::kSwitch, "switch"},   {match::kMeanings, "meanings"},
+                           {match::kNumbers, "numbers"}, {match::kHeld, "held"}};
+static_assert(std::size(kMatch) == std::size(kMatchAt) && matches(kMatch, kMatchAt));
+
+constexpr At kSpacesAt[] = {{spaces::kControl, "control"},
+                            {spaces::kNames, "names"},
+                            {spaces::kNumber, "number"},
+                            {spaces::kShares, "shares"}};
+static_assert(std::size(kSpaces) == std::size(kSpacesAt) && matches(kSpaces, kSpacesAt));
 
 }  // namespace
 

@@ -30,6 +30,12 @@ enum class Kind : std::uint8_t {
   limits,         ///< bounds of a transform's translate, rotation and scale
   display_layer,  ///< transforms that are shown, coloured and selected as one
   control_set,    ///< controls that animators select and key as one; data only
+  compute,        ///< a program over numbers, vectors, rotations and matrices
+  spline,         ///< frames along a curve through controls
+  skin_split,     ///< joints that take a share of another's skin weights; data only
+  match,          ///< what keys a limb in FK and in IK; data only
+  morph,          ///< weights of a model's morph targets; data only
+  spaces,         ///< what says which space a control follows; data only
   count
 };
 
@@ -199,13 +205,13 @@ inline constexpr std::uint16_t kClamp =
 inline constexpr std::uint16_t kOutput = 7;  ///< number, output
 }  // namespace remap
 
-/// Rigid boxes and capsules, each bound to one joint.
+/// Rigid boxes, capsules and cylinders, each bound to one joint.
 namespace mesh {
 inline constexpr std::uint16_t kJoints =
     0;  ///< matrix[], input: worlds of the joints (a connection names the joint)
 inline constexpr std::uint16_t kParts =
-    1;  ///< numbers, data: for each joint: style (0 capsule, 1 box), head xyz, tail xyz, side xyz
-        ///< (unit), width, depth, color rgb; joint space
+    1;  ///< numbers, data: for each joint: style (0 capsule, 1 box, 2 cylinder), head xyz, tail
+        ///< xyz, side xyz (unit), width, depth, color rgb; joint space
 }  // namespace mesh
 
 /// What a transform's values are clamped to, after keys and connections: everything that reads
@@ -241,5 +247,111 @@ inline constexpr std::uint16_t kSet = 0;      ///< text, data: its name
 inline constexpr std::uint16_t kParent = 1;   ///< text, data: the set that it is in; empty: none
 inline constexpr std::uint16_t kMembers = 2;  ///< matrix[], input: worlds of its controls
 }  // namespace control_set
+
+/// What a program (formula.h) gives. It names its inputs and outputs; each is the element of its
+/// type's array that its place among those of its type says.
+namespace compute {
+inline constexpr std::uint16_t kCode = 0;         ///< text, data
+inline constexpr std::uint16_t kNumbers = 1;      ///< number[], input
+inline constexpr std::uint16_t kVectors = 2;      ///< vec3[], input
+inline constexpr std::uint16_t kRotations = 3;    ///< quat[], input
+inline constexpr std::uint16_t kMatrices = 4;     ///< matrix[], input
+inline constexpr std::uint16_t kNumberOut = 5;    ///< number[], output
+inline constexpr std::uint16_t kVectorOut = 6;    ///< vec3[], output
+inline constexpr std::uint16_t kRotationOut = 7;  ///< quat[], output
+inline constexpr std::uint16_t kMatrixOut = 8;    ///< matrix[], output
+/// The array of inputs or outputs of a type.
+inline constexpr std::uint16_t input_of(Type type) {
+  return static_cast<std::uint16_t>(kNumbers + static_cast<std::uint16_t>(type));
+}
+inline constexpr std::uint16_t output_of(Type type) {
+  return static_cast<std::uint16_t>(kNumberOut + static_cast<std::uint16_t>(type));
+}
+}  // namespace compute
+
+/// A curve through controls, and frames along it. It passes through every control; its direction
+/// there turns with the control, and its speed follows the distance to the next: so it has no
+/// corners, and no loops where controls come near each other. An output's x is the curve's
+/// direction, or points at the next output; the other axes turn with the controls around it, so
+/// that twist between two controls is spread evenly. Parameters, and what is exact at rest, are
+/// counted from the controls at rest.
+namespace spline {
+inline constexpr std::uint16_t kBase = 0;      ///< matrix, input: lengths are measured in its scale
+inline constexpr std::uint16_t kControls = 1;  ///< matrix[n], input: worlds, 2 to 32
+/// number, input: 0 outputs keep their places between the controls, however long the curve is; 1
+/// they keep their distances from each other, from the start, beyond the end in its direction
+inline constexpr std::uint16_t kPreserve = 2;
+inline constexpr std::uint16_t kTwists =
+    3;  ///< number[n] or none, input: degrees about the curve at each control, right-handed
+inline constexpr std::uint16_t kRests = 4;  ///< matrix[n], data: controls at rest, base space
+/// number[n], data: how much the curve's direction turns with each control: 0 it passes through as
+/// the controls beside it lie, 1 wholly
+inline constexpr std::uint16_t kFollows = 5;
+inline constexpr std::uint16_t kParameters =
+    6;  ///< number[k], data: place of each output, rising: i at control i (math::Spline)
+inline constexpr std::uint16_t kPlaces =
+    7;  ///< matrix[k], data: outputs at rest, base space; rotations and places
+inline constexpr std::uint16_t kAims = 8;     ///< number, data: 1 x points at the next output
+inline constexpr std::uint16_t kWorlds = 9;   ///< matrix[k], output: of the base's scale, rig space
+inline constexpr std::uint16_t kLength = 10;  ///< number, output: of the curve, in base units
+inline constexpr std::uint16_t kStretch = 11;  ///< number, output: the same relative to rest
+/// numbers, input: how short and how long the outputs' way may become, times its length at rest;
+/// beyond, lengths are kept as with `preserve`
+inline constexpr std::uint16_t kLeast = 12;
+inline constexpr std::uint16_t kMost = 13;
+}  // namespace spline
+
+/// Joints along a bone among which skins share what is weighted to the bone's joint.
+namespace skin_split {
+inline constexpr std::uint16_t kJoints =
+    0;  ///< matrix[], input: worlds (a connection names each) of the bone's joint, of the joint at
+        ///< its end, then of those that take a share
+inline constexpr std::uint16_t kFractions =
+    1;  ///< numbers, data: where along the bone, 0 to 1, the weights are all of one joint: of the
+        ///< bone's joint (less than 0: it keeps none), then of those that take a share
+inline constexpr std::uint16_t kLine =
+    2;  ///< numbers, data: x, y, z of points of a line in the space of the bone's joint, along
+        ///< which the fractions lie in place of the bone; empty: the bone
+inline constexpr std::uint16_t kSurface =
+    3;  ///< text, data: name of the node, or else of the mesh, whose vertices alone share; empty:
+        ///< of every mesh that the joint moves
+}  // namespace skin_split
+
+/// A limb that can be keyed in two ways, for tools that carry a pose from one to the other.
+namespace match {
+inline constexpr std::uint16_t kLimb = 0;    ///< text, data: its name, as `arm_l`
+inline constexpr std::uint16_t kJoints = 1;  ///< matrix[3], input: worlds of start, middle and end
+inline constexpr std::uint16_t kFk =
+    2;  ///< matrix[3], input: worlds of the controls that turn them
+inline constexpr std::uint16_t kIk = 3;      ///< matrix, input: world of the control of the end
+inline constexpr std::uint16_t kPole = 4;    ///< matrix, input: world of the control of the middle
+inline constexpr std::uint16_t kSolver = 5;  ///< matrix, input: of an ik_two_bone its start world
+inline constexpr std::uint16_t kSwitch = 6;  ///< number, input: an attribute: 0 FK, 1 IK
+inline constexpr std::uint16_t kMeanings =
+    7;  ///< text, data: a word for each of the numbers, with a blank between two: upper_twist
+        ///< lower_twist (degrees in IK), upper_length lower_length (factors in IK), fk_upper_length
+        ///< fk_lower_length (in FK), stretch squash soft slide pin (0 has no effect)
+inline constexpr std::uint16_t kNumbers = 8;  ///< number[], input: attributes
+inline constexpr std::uint16_t kHeld =
+    9;  ///< matrix[], input: worlds of controls above the limb that go along with its controls
+}  // namespace match
+
+/// Weights of morph targets, on every mesh that the rig's joints move and that has them.
+namespace morph {
+inline constexpr std::uint16_t kTargets =
+    0;  ///< text, data: names of morph targets, with a line break between two: what the model calls
+        ///< them (glTF: `extras.targetNames` of the mesh)
+inline constexpr std::uint16_t kWeights = 1;  ///< number[], input: one each
+}  // namespace morph
+
+/// A control that can follow one of several spaces, for tools that change it and keep the pose.
+namespace spaces {
+inline constexpr std::uint16_t kControl = 0;  ///< matrix, input: world of the control
+inline constexpr std::uint16_t kNames =
+    1;  ///< text, data: of the spaces, with a blank between two, in the order of their numbers
+inline constexpr std::uint16_t kNumber = 2;  ///< number, input: an attribute: the space's number
+inline constexpr std::uint16_t kShares =
+    3;  ///< number[], input: attributes: how much each space counts beside that number, 0 to 1
+}  // namespace spaces
 
 }  // namespace rigc::scene

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <charconv>
 
+#include "scene/formula.h"
 #include "scene/storage.h"
 
 namespace rigc::scene {
@@ -41,6 +42,23 @@ std::optional<std::uint16_t> find_attribute(const Node& node, std::string_view n
   }
   for (std::size_t i = 0; i < node.user.size(); ++i) {
     if (node.user[i].name == name) return static_cast<std::uint16_t>(kUserAttributes + i);
+  }
+  return std::nullopt;
+}
+
+/// What the program of a compute node gives.
+std::vector<Formula::Named> outputs_of(const Node& node) {
+  if (node.kind != Kind::compute || node.attributes[compute::kCode].empty()) return {};
+  Diagnostics unheard;
+  const auto program =
+      parse_program(std::get<std::string>(node.attributes[compute::kCode][0]), {}, unheard);
+  return program ? program->outputs : std::vector<Formula::Named>{};
+}
+
+/// An output by the name that the program gives it.
+std::optional<Plug> find_output(const Node& node, NodeId id, std::string_view name) {
+  for (const Formula::Named& output : outputs_of(node)) {
+    if (output.name == name) return Plug{id, compute::output_of(output.type), output.element};
   }
   return std::nullopt;
 }
@@ -138,9 +156,11 @@ std::optional<Plug> Scene::find_plug(NodeId node, std::string_view attribute,
                                      std::string_view component_name) const {
   const auto name = parse_element(attribute);
   if (!name) return std::nullopt;
-  const auto index = find_attribute((*this)[node], name->attribute);
-  if (!index) return std::nullopt;
-  Plug plug{node, *index, name->element, -1};
+  auto found = find_output((*this)[node], node, attribute);
+  if (const auto index = find_attribute((*this)[node], name->attribute); index && !found)
+    found = Plug{node, *index, name->element, -1};
+  if (!found) return std::nullopt;
+  Plug plug = *found;
   if (!component_name.empty()) {
     const std::size_t at =
         component_name.size() == 1 ? kComponents.find(component_name[0]) : std::string_view::npos;
@@ -165,6 +185,7 @@ std::vector<std::string> Scene::plug_names(NodeId id) const {
     }
   }
   for (const UserAttribute& attribute : node.user) names.push_back(attribute.name);
+  for (const Formula::Named& output : outputs_of(node)) names.push_back(output.name);
   return names;
 }
 

@@ -3,6 +3,9 @@
 // the command list is made from. Test: tests/tags/tags_test.cpp
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -126,6 +129,7 @@ struct Settings {
   std::vector<Feature> features;
   std::vector<std::pair<std::string, bool>> groups;
   std::string rest = "bind";
+  bool split_weights = false;  ///< skins share weights with joints that commands make for that
 };
 
 /// A skeleton in somebody's file, as the fit sees it. Parents first is not promised.
@@ -147,6 +151,30 @@ struct ForeignSkeleton {
   std::vector<std::pair<std::string, int>>
       humanoid;  ///< VRM humanoid bone -> index into joints; empty without
   std::vector<std::string> notes;
+};
+
+/// A vertex of a model that joints move.
+struct BoundVertex {
+  math::Vec3 at;      ///< in the space of the first of these joints, as it was bound
+  double weight = 0;  ///< of all of them together, 0..1
+};
+
+/// A mesh of a model with its places in a texture.
+struct Surface {
+  std::vector<std::pair<int, math::Affine>> bound;  ///< nodes that move it, each with what leads
+                                                    ///< from the mesh's space into the node's
+  std::vector<math::Vec3> places;                   ///< [vertices], in the space of the mesh
+  std::vector<std::array<double, 2>> texture;       ///< [vertices], u and v
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::string trouble;  ///< why there is nothing but `bound`; empty: there is
+};
+
+/// What commands read of a model's meshes. Without a model both are empty.
+struct Geometry {
+  /// The vertices that nodes of a model and all below them move.
+  std::function<std::vector<BoundVertex>(const std::vector<int>& nodes)> vertices;
+  /// The meshes of nodes of a name, or else those of this name.
+  std::function<std::vector<Surface>(const std::string& name)> surfaces;
 };
 
 }  // namespace rigc::tags

@@ -23,11 +23,20 @@ using test::Size;
 
 const std::string kExpected = std::string(RIGC_SOURCE_DIR) + "/tests/eval/expected_digests.txt";
 
+constexpr std::uint64_t kFnvStart = 0xcbf29ce484222325u, kFnvPrime = 0x100000001b3u;
+
+// By the kernel's name: another place in the table changes no digest.
+std::uint64_t seed_of(Op op) {
+  std::uint64_t hash = kFnvStart;
+  for (const char c : eval::row(op).name) hash = (hash ^ static_cast<unsigned char>(c)) * kFnvPrime;
+  return hash;
+}
+
 // FNV-1a over the bits of all results.
 std::uint64_t digest_of(Op op) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
+  std::uint64_t hash = kFnvStart;
   for (const Size size : {Size::sane, Size::in_range}) {
-    test::Random random(static_cast<std::uint64_t>(op) * 10 + static_cast<std::uint64_t>(size) + 5);
+    test::Random random(seed_of(op) + static_cast<std::uint64_t>(size));
     test::Wild wild(random, size);
     for (int i = 0; i < 500; ++i) {
       const Job job = test::job_of(op, wild);
@@ -38,7 +47,7 @@ std::uint64_t digest_of(Op op) {
           const auto bits = std::bit_cast<std::uint64_t>(number);
           for (int byte = 0; byte < 8; ++byte) {
             hash ^= (bits >> (8 * byte)) & 0xff;
-            hash *= 0x100000001b3u;
+            hash *= kFnvPrime;
           }
         }
       }

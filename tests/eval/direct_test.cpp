@@ -268,7 +268,70 @@ TEST_CASE("eval direct: what comes between takes the general way") {
     elsewhere.b.edit.connect({elsewhere.root, transform::kWorld},
                              {elsewhere.node, constraint::kParent});
     CHECK(has(elsewhere.program(elsewhere.settings), Op::constraint));
+    CHECK(difference(elsewhere) < kBound);
   }
+}
+
+TEST_CASE("eval direct: the short way into the parent's space is the general one") {
+  Random random(10);
+  double most = 0;
+  for (int i = 0; i < 300; ++i) {
+    const int targets = 1 + static_cast<int>(random.below(3));
+    Driven rig({Kind::parent_constraint, targets, true, true}, random);
+    rig.b.edit.connect({rig.root, transform::kWorld}, {rig.node, constraint::kParent});
+    CHECK(has(rig.program(rig.settings), Op::constraint));
+    if (!half_turn(rig)) most = std::max(most, difference(rig));
+  }
+  CHECK(most < kBound);
+}
+
+TEST_CASE("eval direct: a driven transform of animated scale, between sizes that vary") {
+  Random random(12);
+  double most = 0;
+  for (int i = 0; i < 200; ++i) {
+    Driven rig({Kind::parent_constraint, 1, random.chance(50), false}, random);
+    const NodeId size = rig.b.make(Kind::expression, "size");
+    rig.b.edit.set({size, scene::expression::kCode}, std::string("clamp($0, 0.2, 4)"));
+    const scene::Plug in{size, scene::expression::kInputs, 0};
+    rig.b.edit.set(in, 1.0);
+    rig.settings.push_back({in, random.between(0.1, 5)});
+    const NodeId grown = random.chance(50) ? rig.parent : rig.targets[0];
+    for (std::int8_t c = 0; c < 3; ++c)
+      rig.b.edit.connect({size, scene::expression::kOutput}, {grown, transform::kScale, -1, c});
+    if (random.chance(50))
+      rig.settings.push_back({{rig.driven, transform::kScale}, random.trs(false).scale});
+    CHECK(!has(rig.program(rig.settings), Op::constraint));
+    most = std::max(most, difference(rig));
+  }
+  CHECK(most < kBound);
+}
+
+TEST_CASE("eval direct: between targets that weigh the same all the time") {
+  Random random(11);
+  double most = 0;
+  for (int i = 0; i < 100; ++i) {
+    Driven rig({Kind::point_constraint, 3, true, false}, random);
+    rig.b.edit.disconnect({rig.driven, transform::kRotation});
+    const NodeId turning = rig.b.make(Kind::orient_constraint, "turning");
+    rig.b.edit.connect({rig.driven, transform::kParent}, {turning, constraint::kParent});
+    rig.b.edit.connect({rig.root, transform::kWorld}, {turning, constraint::kTargets, 0});
+    rig.b.edit.set({turning, constraint::kWeights, 0}, 1.0);
+    rig.b.edit.set({turning, constraint::kOffsets, 0}, math::compose(random.trs()));
+    if (random.chance(50))
+      rig.b.edit.connect({turning, constraint::kRotation}, {rig.driven, transform::kRotation});
+    const Vec3 aside = random.vector();
+    for (std::int32_t k = 0; k < 3; ++k) {
+      std::erase_if(rig.settings, [&](const Setting& setting) {
+        return setting.plug == scene::Plug{rig.node, constraint::kWeights, k};
+      });
+      const double weight[] = {2, 1, 1}, times[] = {1, -1, -1};
+      rig.b.edit.set({rig.node, constraint::kWeights, k}, weight[k]);
+      rig.b.edit.set({rig.node, constraint::kOffsets, k}, math::translation(aside * times[k]));
+    }
+    CHECK(!has(rig.program(rig.settings), Op::constraint));
+    most = std::max(most, difference(rig));
+  }
+  CHECK(most < kBound);
 }
 
 TEST_CASE("eval direct: a translate alone, moved or from a point constraint") {

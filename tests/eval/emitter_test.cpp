@@ -72,6 +72,29 @@ TEST_CASE("eval emitter: scales of matrices") {
   CHECK(e.scale(e.emit(Op::multiply, {large, large}, {}, 12, 0)) == 0);
 }
 
+TEST_CASE("eval emitter: scales that vary are known by their product") {
+  Matrices m;
+  Emitter& e = m.emitter;
+  const Operand any = e.input(std::array{1.0});
+  const Operand size = e.emit(Op::clamp, {any, e.constant({0.5}), e.constant({2})}, {}, 1, 0);
+  const Operand back = e.emit(Op::divide, {e.constant({3}), size}, {}, 1, 0);
+  const auto even = [&](const Operand& n) { return e.emit(Op::gather, {n, n, n}, {}, 3, 0); };
+  const Operand larger = m.scaled(even(size)), smaller = m.scaled(even(back));
+  CHECK(e.factor(larger).number == 1);
+  CHECK(e.factor(larger).powers != 0);
+  CHECK(e.scale(larger) == 0);
+  CHECK(e.scale(e.emit(Op::multiply, {larger, smaller}, {}, 12, 0)) == 3);
+  CHECK(e.number_of(e.factor(larger), 0) == size);
+  const Operand twice = e.emit(Op::multiply, {larger, larger}, {}, 12, 0);
+  CHECK(e.factor(twice).powers != e.factor(larger).powers);
+  CHECK(e.scale(e.emit(Op::multiply, {twice, e.emit(Op::matrix_inverse, {twice}, {}, 12, 0)}, {},
+                       12, 0)) == 1);
+  // What may be 0 or below is no factor, nor is what differs along the axes.
+  CHECK(e.factor(m.scaled(even(any))).number == 0);
+  const Operand uneven = e.emit(Op::gather, {size, size, back}, {}, 3, 0);
+  CHECK(e.factor(m.scaled(uneven)).number == 0);
+}
+
 TEST_CASE("eval emitter: scales of solved limbs") {
   Matrices m;
   Emitter& e = m.emitter;

@@ -4,7 +4,9 @@
 // does, and the tests say so. Test: tests/eval/hostile_test.cpp
 #pragma once
 
+#include "eval/kernels/constraint_table.h"
 #include "eval/limits.h"
+#include "math/generic/spline.h"
 #include "tests/eval/kernel_runner.h"
 
 namespace rigc::test {
@@ -18,7 +20,12 @@ struct Job {
   double even = 0;
 };
 
+/// Over numbers alone.
 inline bool is_formula(eval::Op op) { return op >= eval::Op::negate; }
+/// Over vectors, rotations and matrices too.
+inline bool is_vector_formula(eval::Op op) {
+  return op >= eval::Op::vector_add && op <= eval::Op::choose;
+}
 
 inline math::Mat3 even_linear(Random& random, double even) {
   const math::Mat3 m = math::matrix(random.rotation());
@@ -33,7 +40,7 @@ class Source {
   virtual double number() = 0;
   Random& random() { return random_; }
 
-  math::Vec3 vector() {
+  virtual math::Vec3 vector() {
     const double x = number(), y = number(), z = number();
     return {x, y, z};
   }
@@ -112,21 +119,36 @@ inline Numbers random_curve(Source& source) {
   return data;
 }
 
-inline Job constraint_job(Source& source) {
-  using scene::Type;
-  const std::size_t count = 1 + source.random().below(4);
-  Job job{eval::Op::constraint, {Type::matrix}, {}, 10};
-  job.data = {static_cast<double>(count), static_cast<double>(source.random().below(2))};
-  for (std::size_t i = 0; i < count; ++i) {
-    job.arguments.insert(job.arguments.end(), {Type::matrix, Type::number});
-    append(job.data, source.matrix());
-  }
-  return job;
-}
-
 inline void append(Numbers& data, const math::Mat3& m) {
   for (const math::Vec3& column : {m.x, m.y, m.z})
     data.insert(data.end(), {column.x, column.y, column.z});
+}
+
+/// The offsets of even ones are taken apart for them.
+inline Job constraint_job(Source& source) {
+  using scene::Type;
+  const std::size_t count = 1 + source.random().below(4);
+  const auto way = static_cast<double>(source.random().below(3));
+  Job job{eval::Op::constraint, {Type::matrix}, {}, 10};
+  const bool is_even = way == eval::constraint_table::kEven;
+  if (is_even) job.even = source.random().between(0.1, 10);
+  job.data = {static_cast<double>(count), way};
+  Numbers more{1 / (job.even * job.even)};
+  for (std::size_t i = 0; i < count; ++i) {
+    job.arguments.insert(job.arguments.end(), {Type::matrix, Type::number});
+    if (!is_even) {
+      append(job.data, source.matrix());
+      continue;
+    }
+    const math::Trs offset = source.random().trs(source.random().chance(50));
+    const math::Mat3 turned = math::matrix(offset.rotation);
+    append(job.data, math::compose(offset));
+    const double smaller = more[0];
+    append(more, {turned.x * smaller, turned.y * smaller, turned.z * smaller});
+    append(more, offset.scale);
+  }
+  if (is_even) job.data.insert(job.data.end(), more.begin(), more.end());
+  return job;
 }
 
 /// Rotations times a factor, which the offsets take back.
@@ -203,11 +225,117 @@ inline Job chain_job(Source& source) {
   return job;
 }
 
+/// What goes into the operations of kernels/vectors.h, and what comes out.
+inline Job vector_job(eval::Op op, Source& source) {
+  using eval::Op;
+  using scene::Type;
+  const Type n = Type::number, v = Type::vec3, q = Type::quat, m = Type::matrix;
+  const auto job = [op](std::vector<Type> arguments, Type result) {
+    return Job{op, std::move(arguments), {}, static_cast<std::uint32_t>(scene::width(result))};
+  };
+  switch (op) {
+    case Op::vector_add:
+    case Op::vector_subtract:
+    case Op::vector_multiply:
+    case Op::cross:
+      return job({v, v}, v);
+    case Op::vector_scale:
+      return job({v, n}, v);
+    case Op::vector_lerp:
+      return job({v, v, n}, v);
+    case Op::dot:
+      return job({v, v}, n);
+    case Op::length:
+      return job({v}, n);
+    case Op::normalise:
+      return job({v}, v);
+    case Op::rotation_multiply:
+      return job({q, q}, q);
+    case Op::rotation_inverse:
+      return job({q}, q);
+    case Op::rotation_apply:
+      return job({q, v}, v);
+    case Op::rotation_slerp:
+      return job({q, q, n}, q);
+    case Op::axis_angle:
+      return job({v, n}, q);
+    case Op::twist_angle:
+      return job({q, v}, n);
+    case Op::between:
+    case Op::aim_rotation:
+      return job({v, v}, q);
+    case Op::matrix_rotation:
+      return job({m}, q);
+    case Op::matrix_scale:
+      return job({m}, v);
+    case Op::matrix_inverse:
+      return job({m}, m);
+    case Op::transform_point:
+    case Op::transform_vector:
+      return job({m, v}, v);
+    default:
+      break;
+  }
+  REQUIRE_MESSAGE(op == Op::choose, "a new formula needs a row here: " << eval::row(op).name);
+  const Type types[] = {n, v, q, m};
+  const Type chosen = types[source.random().below(4)];
+  return job({n, chosen, chosen}, chosen);
+}
+
+/// Outputs of a random curve at rest, in order.
+inline void append_outputs(Numbers& data, Source& source, std::size_t controls,
+                           std::size_t outputs) {
+  Random& random = source.random();
+  double x = 0, passed = 0;
+  for (std::size_t k = 0; k < outputs; ++k) {
+    x = random.between(x, static_cast<double>(controls - 1));
+    const double segment = std::fmin(std::floor(x), static_cast<double>(controls - 2));
+    data.insert(data.end(), {segment, x - segment});
+    for (const auto& b :
+         {math::generic::place_basis(x - segment), math::generic::slope_basis(x - segment)})
+      data.insert(data.end(), {b.from, b.leaving, b.to, b.arriving});
+    passed += std::fabs(source.number());
+    data.insert(data.end(), {passed, std::fabs(source.number())});
+    append(data, math::matrix(random.rotation()));
+    append(data, random.chance(50) ? math::Vec3{} : source.vector());
+  }
+}
+
+inline Job spline_job(Source& source) {
+  using scene::Type;
+  Random& random = source.random();
+  const std::size_t controls = random.chance(10) ? 9 : 2 + random.below(5);
+  const std::size_t outputs = 1 + random.below(5);
+  const bool twisted = random.chance(30);
+  Job job{eval::Op::spline, {Type::matrix, Type::number, Type::number, Type::number}, {}, 0};
+  job.arguments.insert(job.arguments.end(), controls, Type::matrix);
+  if (twisted) job.arguments.insert(job.arguments.end(), controls, Type::number);
+  job.data = {static_cast<double>(controls),
+              static_cast<double>(outputs),
+              static_cast<double>(random.below(2)),
+              static_cast<double>(random.below(2)),
+              twisted ? 1.0 : 0.0,
+              1.0,
+              std::fabs(source.number())};
+  const double follows[] = {0, 0.3, 1};
+  for (std::size_t i = 0; i < controls; ++i) {
+    const math::Mat3 axes = math::matrix(random.rotation());
+    append(job.data, axes.x * random.between(0.5, 1));
+    job.data.push_back(follows[random.below(3)]);
+    append(job.data, axes.x);
+    append(job.data, axes.y);
+  }
+  append_outputs(job.data, source, controls, outputs);
+  job.width = static_cast<std::uint32_t>(2 + 12 * outputs);
+  return job;
+}
+
 /// An instruction as the compiler emits it. Rests and offsets that are rotations are at unit
 /// length, as there; what else comes from a scene comes from the source.
 inline Job job_of(eval::Op op, Source& source) {
   using eval::Op;
   using scene::Type;
+  if (is_vector_formula(op)) return vector_job(op, source);
   switch (op) {
     case Op::compose:
       return {op, {Type::vec3, Type::quat, Type::vec3}, {}, 12};
@@ -240,6 +368,8 @@ inline Job job_of(eval::Op op, Source& source) {
       return two_bone_job(source);
     case Op::ik_chain:
       return chain_job(source);
+    case Op::spline:
+      return spline_job(source);
     case Op::limit_vector:
       return {op, {Type::vec3}, eval::limit_data(random_limits(source, 3)), 3};
     case Op::limit_rotation:

@@ -6,6 +6,8 @@
 #include <functional>
 
 #include "tests/eval/twin_solvers.h"
+#include "tests/eval/twin_spline.h"
+#include "tests/eval/twin_vectors.h"
 
 namespace rigc::exact {
 
@@ -226,6 +228,7 @@ inline Result twin_of(eval::Op op, const Arguments& a, const Numbers& d) {
     }
     return out;
   }
+  if (test::is_vector_formula(op)) return vector_formula(op, a);
   switch (op) {
     case Op::compose:
       return compose(a, d);
@@ -263,6 +266,8 @@ inline Result twin_of(eval::Op op, const Arguments& a, const Numbers& d) {
       return limit_vector(a, d);
     case Op::limit_rotation:
       return limit_rotation(a, d);
+    case Op::spline:
+      return spline(a, d);
     case Op::remap:
       return remap(a, d);
     default:
@@ -283,6 +288,10 @@ class Errors {
   Real largest() const { return largest_; }
 
   void operator()(Real number) { note(fabsl(got_[at_++] - number) / size_); }
+  void operator()(Ratio ratio) {
+    const Real size = fabsl(ratio.value);
+    note(fabsl(got_[at_++] - ratio.value) / (size > 0 ? size : 1));
+  }
   void operator()(V place) { note(length(next() - place) / size_); }
   void operator()(const M& turned) {
     note(angle_between(turn(quat_at(got_, at_)), turned));

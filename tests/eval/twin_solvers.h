@@ -20,9 +20,13 @@ using test::Numbers;
 struct Angles {
   M turn;
 };
+/// A number that is measured against itself.
+struct Ratio {
+  Real value;
+};
 /// What an operation gives, in the order of its rows: a number, a place or scale, a rotation (a
 /// quaternion there), three angles, a matrix.
-using Part = std::variant<Real, V, M, Angles, A>;
+using Part = std::variant<Real, Ratio, V, M, Angles, A>;
 
 struct Result {
   std::vector<Part> parts;
@@ -228,7 +232,8 @@ inline Result constraint(const Arguments& a, const Numbers& d) {
                                    {d[8 + 12 * i], d[9 + 12 * i], d[10 + 12 * i]}},
                                   {d[11 + 12 * i], d[12 + 12 * i], d[13 + 12 * i]}};
     A local = to_parent * A(matrix_at(a, 1 + 2 * i)) * offset;
-    if (d[1] != 0) local = {M{}, to_parent * V(matrix_at(a, 1 + 2 * i).origin) + offset.origin};
+    if (d[1] == eval::constraint_table::kPoint)
+      local = {M{}, to_parent * V(matrix_at(a, 1 + 2 * i).origin) + offset.origin};
     const M turned = orthonormal(local.linear);
     const V scaled = scales(turned, local.linear);
     place = place + local.origin * share[i];

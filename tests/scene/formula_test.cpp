@@ -152,5 +152,117 @@ TEST_CASE("scene formula: random texts never crash and always say why") {
   CHECK(good > 1000);
 }
 
+// --- programs ---
+
+std::string shape(std::string_view text) {
+  Diagnostics diagnostics;
+  const auto program = scene::parse_program(text, {}, diagnostics);
+  REQUIRE(program.has_value() == diagnostics.ok());
+  if (!program) return diagnostics.all().front().message;
+  std::string out;
+  for (const auto* list : {&program->inputs, &program->outputs}) {
+    for (const auto& named : *list)
+      out += fmt::format("{}:{}{} ", named.name, scene::name_of(named.type), named.element);
+    out += "| ";
+  }
+  for (const auto& step : program->steps) {
+    if (step.op >= FormulaOp::negate) out += std::string(scene::name_of(step.op)) + " ";
+  }
+  return out;
+}
+
+TEST_CASE("scene formula: programs name what they take and give") {
+  CHECK(shape("in a: number, m: matrix, b: number; out c = a + b; out at = m.origin * c;") ==
+        "a:number0 m:matrix0 b:number1 | c:number0 at:vec30 | add component vector_scale ");
+  CHECK(shape("in v: vector; half = v / 2; out w = half - 3 * v;") ==
+        "v:vec30 | w:vec30 | divide vector_scale vector_scale vector_subtract ");
+  CHECK(shape("") == "| | ");
+  CHECK(shape("in q: rotation; out s = swing(q, vector(0, 1, 0));") ==
+        "q:quat0 | s:quat0 | gather twist_angle negate axis_angle rotation_multiply ");
+}
+
+TEST_CASE("scene formula: what operators mean depends on the types") {
+  const std::string takes = "in n: number, v: vector, q: rotation, m: matrix; out r = ";
+  for (const auto& [text_of, op] : {std::pair{"v + v", "vector_add"},
+                                    {"n * v", "vector_scale"},
+                                    {"q * q", "rotation_multiply"},
+                                    {"q * v", "rotation_apply"},
+                                    {"m * m", "matrix_multiply"},
+                                    {"m * v", "transform_point"},
+                                    {"n > 0 ? v : v", "choose"},
+                                    {"if(n, m, m)", "choose"},
+                                    {"inverse(q)", "rotation_inverse"},
+                                    {"inverse(m)", "matrix_inverse"},
+                                    {"lerp(v, v, n)", "vector_lerp"},
+                                    {"-v", "vector_scale"},
+                                    {"distance(v, v)", "length"}}) {
+    const std::string text(text_of);
+    CAPTURE(text);
+    CHECK(shape(takes + text + ";").find(op) != std::string::npos);
+  }
+}
+
+TEST_CASE("scene formula: programs refuse what does not go together") {
+  const std::string takes = "in n: number, v: vector, q: rotation, m: matrix; ";
+  for (const std::string text :
+       {"out r = v * v;", "out r = v + n;", "out r = v < v;", "out r = !m;", "out r = -q;",
+        "out r = n ? v : q;", "out r = v ? n : n;", "out r = sin(v);", "out r = dot(v, n);",
+        "out r = q + q;", "out r = length(m);"}) {
+    CAPTURE(text);
+    Diagnostics diagnostics;
+    CHECK(!scene::parse_program(takes + text, {}, diagnostics));
+    CHECK(diagnostics.all().front().code == &scene::codes::kFormulaType);
+  }
+  for (const std::string text : {"out n = 1;", "r = 1; r = 2;", "out r = v.w;", "out r = q.x;",
+                                 "out r = x;", "out r = crossed(v, v);"}) {
+    CAPTURE(text);
+    Diagnostics diagnostics;
+    CHECK(!scene::parse_program(takes + text, {}, diagnostics));
+    CHECK(diagnostics.all().front().code == &scene::codes::kFormulaName);
+  }
+  for (const std::string text : {"out r = 1", "out = 1;", "in a;", "in a: colour;", "1;", "out r;",
+                                 "in a: number b: number;", "out 1 = 2;", "in;"}) {
+    CAPTURE(text);
+    Diagnostics diagnostics;
+    CHECK(!scene::parse_program(text, {}, diagnostics));
+    CHECK(diagnostics.all().front().code == &scene::codes::kFormulaSyntax);
+  }
+}
+
+TEST_CASE("scene formula: every typed function is found by its name and types") {
+  const std::string takes = "in n: number, v: vector, q: rotation, m: matrix; out r = ";
+  for (const scene::TypedFunction& f : scene::typed_functions()) {
+    std::string text(f.name);
+    for (std::size_t i = 0; i < f.count; ++i)
+      text += (i == 0 ? "(" : ", ") + std::string(1, "nvqm"[static_cast<int>(f.arguments[i])]);
+    CAPTURE(text);
+    CHECK(shape(takes + text + ");").find(scene::name_of(f.op)) != std::string::npos);
+    CHECK(!f.help.empty());
+  }
+}
+
+TEST_CASE("scene formula: random programs never crash and always say why") {
+  const std::string_view pieces[] = {
+      "in ", "a",   "b", "c", ": number", ": vector", ": matrix", ",",  ";",  "out ", "=",    "+",
+      "*",   "a.x", "(", ")", "dot(",     "1",        "swing(",   "? ", ": ", "if(",  "min(", " "};
+  test::Random random(11);
+  int good = 0;
+  for (int i = 0; i < 100000; ++i) {
+    std::string text = "in a: vector, b: number;";
+    for (std::size_t n = 1 + random.below(9); n > 0; --n)
+      text += pieces[random.below(std::size(pieces))];
+    Diagnostics diagnostics;
+    const auto program = scene::parse_program(text, {}, diagnostics);
+    REQUIRE(program.has_value() == diagnostics.ok());
+    if (!program) continue;
+    ++good;
+    for (std::size_t s = 0; s < program->steps.size(); ++s) {
+      for (const int argument : program->steps[s].arguments)
+        REQUIRE(argument < static_cast<int>(s));
+    }
+  }
+  CHECK(good > 100);
+}
+
 }  // namespace
 }  // namespace rigc

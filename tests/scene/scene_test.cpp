@@ -121,6 +121,20 @@ TEST_CASE("scene: plugs by name and back") {
   }
 }
 
+TEST_CASE("scene: what a program gives is found by its name") {
+  Built b;
+  const NodeId node = b.make(Kind::compute);
+  b.edit.set({node, scene::compute::kCode},
+             std::string("in m: matrix; out bend = m.x.y; out way = m.origin; out side = m.z;"));
+  CHECK(b.scene.find_plug(node, "bend") == Plug{node, scene::compute::kNumberOut, 0});
+  CHECK(b.scene.find_plug(node, "side") == Plug{node, scene::compute::kVectorOut, 1});
+  CHECK(b.scene.find_plug(node, "side", "y") == Plug{node, scene::compute::kVectorOut, 1, 1});
+  CHECK_FALSE(b.scene.find_plug(node, "m"));
+  CHECK_FALSE(b.scene.find_plug(node, "bend", "x"));
+  const auto names = b.scene.plug_names(node);
+  CHECK(names == std::vector<std::string>{"code", "bend", "way", "side"});
+}
+
 TEST_CASE("scene: roles") {
   Built b;
   const NodeId node = b.make(Kind::control);

@@ -29,6 +29,7 @@ RIGC_INLINE Trs weighted_mean(const Lanes& lanes, std::size_t first, std::size_t
   Mean weights(lanes, first, count);
   for (std::size_t i = 0; i < count; ++i) {
     const Real t = weights.add(i);
+    if (!any(t != 0.0)) continue;
     const Trs next = placed(i);
     mean = any(t != 1.0) ? toward(mean, next, t) : next;
   }

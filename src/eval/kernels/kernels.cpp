@@ -8,9 +8,11 @@
 #include "eval/kernels/limit.h"
 #include "eval/kernels/numbers.h"
 #include "eval/kernels/remap.h"
+#include "eval/kernels/spline.h"
 #include "eval/kernels/table.h"
 #include "eval/kernels/transforms.h"
 #include "eval/kernels/two_bone.h"
+#include "eval/kernels/vectors.h"
 
 namespace rigc::eval::RIGC_ISA {
 namespace {
@@ -43,7 +45,31 @@ constexpr KernelRow kRows[] = {
     {Op::ik_chain, "ik_chain", all_lanes<Chain>, kAny},
     {Op::limit_vector, "limit_vector", all_lanes<LimitVector>, 1},
     {Op::limit_rotation, "limit_rotation", all_lanes<LimitRotation>, 1},
+    {Op::spline, "spline", all_lanes<Spline>, kAny},
     {Op::remap, "remap", all_lanes<Remap>, 5},
+    {Op::vector_add, "vector_add", all_lanes<VectorAdd>, 2},
+    {Op::vector_subtract, "vector_subtract", all_lanes<VectorSubtract>, 2},
+    {Op::vector_scale, "vector_scale", all_lanes<VectorScale>, 2},
+    {Op::vector_multiply, "vector_multiply", all_lanes<VectorMultiply>, 2},
+    {Op::vector_lerp, "vector_lerp", all_lanes<VectorLerp>, 3},
+    {Op::dot, "dot", all_lanes<Dot>, 2},
+    {Op::cross, "cross", all_lanes<Cross>, 2},
+    {Op::length, "length", all_lanes<Length>, 1},
+    {Op::normalise, "normalise", all_lanes<Normalise>, 1},
+    {Op::rotation_multiply, "rotation_multiply", all_lanes<RotationMultiply>, 2},
+    {Op::rotation_inverse, "rotation_inverse", all_lanes<RotationInverse>, 1},
+    {Op::rotation_apply, "rotation_apply", all_lanes<RotationApply>, 2},
+    {Op::rotation_slerp, "rotation_slerp", all_lanes<RotationSlerp>, 3},
+    {Op::axis_angle, "axis_angle", all_lanes<AxisAngle>, 2},
+    {Op::twist_angle, "twist_angle", all_lanes<TwistAngle>, 2},
+    {Op::between, "between", all_lanes<Between>, 2},
+    {Op::aim_rotation, "aim_rotation", all_lanes<AimRotation>, 2},
+    {Op::matrix_rotation, "matrix_rotation", all_lanes<MatrixRotation>, 1},
+    {Op::matrix_scale, "matrix_scale", all_lanes<MatrixScale>, 1},
+    {Op::matrix_inverse, "matrix_inverse", all_lanes<MatrixInverse>, 1},
+    {Op::transform_point, "transform_point", all_lanes<TransformPoint>, 2},
+    {Op::transform_vector, "transform_vector", all_lanes<TransformVector>, 2},
+    {Op::choose, "choose", all_lanes<Choose>, 3},
     {Op::negate, "negate", unary<numbers::Negate>, 1},
     {Op::logical_not, "not", unary<numbers::Not>, 1},
     {Op::add, "add", binary<numbers::Add>, 2},

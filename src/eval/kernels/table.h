@@ -25,8 +25,8 @@ enum class Op : std::uint8_t {
   from_euler,     ///< degrees -> rotation
   to_euler,       ///< rotation -> degrees
   // Solvers; scene/kinds.h says what they mean.
-  constraint,  ///< parent, (target, weight)...; data: count, whether it is a point constraint,
-               ///< offsets -> translate, rotation, scale
+  constraint,  ///< parent, (target, weight)...; data: constraint_table.h -> translate, rotation,
+               ///< scale
   aim,  ///< parent, position, up_target, up_vector, (target, weight)...; data: count, mode, offset
         ///< -> rotation
   blend,      ///< (target, weight)...; data: count, of each target 9 numbers L that make target * L
@@ -39,8 +39,34 @@ enum class Op : std::uint8_t {
                 ///< offset, rests -> rotations
   limit_vector,    ///< vector; data: LimitSpace -> vector
   limit_rotation,  ///< rotation; data: LimitSpace -> rotation
-  remap,           ///< input, its range, output's range; data: clamp, count, points -> number
-  // Formulas, in the order of scene::FormulaOp from negate on.
+  spline,  ///< base, preserve, controls..., twists...; data: spline_table.h -> length, stretch,
+           ///< worlds
+  remap,   ///< input, its range, output's range; data: clamp, count, points -> number
+  // Formulas over vectors, rotations and matrices; kernels/vectors.h says what they mean.
+  vector_add,         ///< a, b -> a + b
+  vector_subtract,    ///< a, b -> a - b
+  vector_scale,       ///< vector, number
+  vector_multiply,    ///< component by component
+  vector_lerp,        ///< a, b, t -> a + (b - a) t
+  dot,                ///< vector, vector -> number
+  cross,              ///< vector, vector -> vector
+  length,             ///< vector -> number
+  normalise,          ///< vector -> at unit length, or zero
+  rotation_multiply,  ///< a, b -> by b, then by a
+  rotation_inverse,   ///< rotation
+  rotation_apply,     ///< rotation, vector -> vector
+  rotation_slerp,     ///< a, b, t -> part of the nearer way
+  axis_angle,         ///< axis, degrees -> rotation
+  twist_angle,        ///< rotation, axis -> degrees about the axis
+  between,            ///< direction, direction -> the shortest rotation
+  aim_rotation,       ///< primary, secondary -> rotation of x and y there
+  matrix_rotation,    ///< matrix -> rotation
+  matrix_scale,       ///< matrix -> scale along its axes
+  matrix_inverse,     ///< matrix
+  transform_point,    ///< matrix, point -> point
+  transform_vector,   ///< matrix, vector -> vector
+  choose,             ///< condition, where true, where false; of any width
+  // Formulas of numbers, in the order of scene::FormulaOp from negate on.
   negate,
   logical_not,
   add,
