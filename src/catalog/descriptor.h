@@ -19,7 +19,8 @@ namespace rigc::catalog {
 enum class ParameterType : std::uint8_t {
   node, nodes, plug, plugs, number /* float */, numbers /* floats */, integer /* int */,
   boolean /* bool */, angle, length, vec3, color, enumeration /* enum */, text /* string */,
-  curve, expression, value /* what its plug takes: number, boolean, text or [x, y, z] */
+  curve, expression, value /* what its plug takes: number, boolean, text or [x, y, z] */,
+  texts /* strings */, table /* rows of as many numbers each */
 };
 // clang-format on
 

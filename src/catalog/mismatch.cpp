@@ -55,12 +55,13 @@ class Checker {
     return wrong(value, fmt::format("expected {}, not {}", what, found(value)), std::move(hint));
   }
   Result text(const Literal& value, std::string_view what) const;
-  Result texts(const Literal& value, std::string_view what) const;
+  Result texts(const Literal& value, std::string_view one, std::string_view all) const;
   Result number(const Literal& value) const;
   Result numbers(const Literal& value) const;
   Result color(const Literal& value) const;
   Result word(const Literal& value) const;
   Result curve(const Literal& value) const;
+  Result table(const Literal& value) const;
   Result any(const Literal& value) const;
 
   const Parameter& parameter_;
@@ -73,7 +74,9 @@ Result Checker::check(const Literal& value) const {
       return text(value, "a selector");
     case ParameterType::nodes:
     case ParameterType::plugs:
-      return texts(value, "a selector or a list of selectors");
+      return texts(value, "a selector", "a selector or a list of selectors");
+    case ParameterType::texts:
+      return texts(value, "a text", "a list of texts");
     case ParameterType::expression:
       return value.kind == Kind::number ? Result() : text(value, "an expression");
     case ParameterType::text:
@@ -95,6 +98,8 @@ Result Checker::check(const Literal& value) const {
       return word(value);
     case ParameterType::curve:
       return curve(value);
+    case ParameterType::table:
+      return table(value);
     case ParameterType::value:
       return any(value);
   }
@@ -107,11 +112,11 @@ Result Checker::text(const Literal& value, std::string_view what) const {
   return expected(value, what, plain ? "put it in quotes to make it a text" : "");
 }
 
-Result Checker::texts(const Literal& value, std::string_view what) const {
-  if (value.kind != Kind::list) return text(value, what);
+Result Checker::texts(const Literal& value, std::string_view one, std::string_view all) const {
+  if (value.kind != Kind::list) return text(value, all);
   if (value.items.empty()) return wrong(value, "the list is empty");
   for (const Literal& item : value.items) {
-    if (auto result = text(item, "a selector")) return result;
+    if (auto result = text(item, one)) return result;
   }
   return std::nullopt;
 }
@@ -190,6 +195,20 @@ Result Checker::curve(const Literal& value) const {
                    "the points of a curve go from left to right");
     }
     before = &point.items[0];
+  }
+  return std::nullopt;
+}
+
+Result Checker::table(const Literal& value) const {
+  if (value.kind != Kind::list || value.items.empty()) return expected(value, "a list of rows");
+  for (const Literal& row : value.items) {
+    const std::size_t wide = row.items.size();
+    if (wide == 0 || !are_numbers(row, wide)) return expected(row, "a row of numbers");
+    const std::size_t first = value.items.front().items.size();
+    if (wide != first) {
+      return wrong(row, fmt::format("a row of {} where the first has {}", wide, first),
+                   "all rows of a table have as many numbers");
+    }
   }
   return std::nullopt;
 }

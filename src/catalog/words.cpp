@@ -11,9 +11,9 @@ namespace rigc::catalog {
 namespace {
 
 constexpr std::string_view kTypeNames[] = {
-    "node",   "nodes", "plug",  "plugs", "float",  "floats", "int",        "bool", "angle",
-    "length", "vec3",  "color", "enum",  "string", "curve",  "expression", "value"};
-static_assert(std::size(kTypeNames) == static_cast<std::size_t>(ParameterType::value) + 1);
+    "node", "nodes", "plug", "plugs",  "float", "floats",     "int",   "bool",    "angle", "length",
+    "vec3", "color", "enum", "string", "curve", "expression", "value", "strings", "table"};
+static_assert(std::size(kTypeNames) == static_cast<std::size_t>(ParameterType::table) + 1);
 
 constexpr std::string_view kStageNames[] = {"build", "connect", "finish", "optimize"};
 

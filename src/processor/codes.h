@@ -18,12 +18,17 @@ inline constexpr Code kSkipped{
     503, Severity::warning, "command skipped",
     "A required selector that ends in `?` found nothing, so the command did not run."};
 
+inline constexpr Code kIdleFeatures{
+    505, Severity::warning, "feature without what it works on",
+    "A feature that is on works on what the commands of another one make, and that one was turned "
+    "off: its commands did not run. Turn it off as well, or leave it as it is for later."};
+
 inline constexpr Code kDoesNotFit{
     504, Severity::error, "descriptor does not fit its implementation",
     "A descriptor whose `implementation` is another module declares that module's required "
     "parameters, and parameters that both have with the same type."};
 
 inline constexpr const Code* kProcessorCodes[] = {&kNotBuiltIn, &kNoSuchCommand, &kNoSuchGroup,
-                                                  &kSkipped, &kDoesNotFit};
+                                                  &kSkipped,    &kIdleFeatures,  &kDoesNotFit};
 
 }  // namespace rigc::processor::codes

@@ -97,8 +97,13 @@ std::string made_by(const tags::TaggedJoint& joint, const tags::CommandTag& tag,
                      printable(std::string(sources.name(tag.span.file))), tag.span.line);
 }
 
+struct Tagged {
+  const tags::TaggedJoint& joint;
+  const tags::CommandTag& tag;
+};
+
 /// The first command outside the list, because it or its feature is off, that would make it.
-std::string switched_off(const Outlook& outlook, const Forecaster& forecaster) {
+std::optional<Tagged> switched_off(const Outlook& outlook, const Forecaster& forecaster) {
   std::set<std::pair<std::size_t, std::size_t>> listed;
   for (const Command& command : outlook.commands.commands) {
     listed.emplace(command.joint, command.tag);
@@ -109,13 +114,26 @@ std::string switched_off(const Outlook& outlook, const Forecaster& forecaster) {
       const tags::CommandTag& tag = joint.commands[t];
       if (listed.count({j, t})) continue;
       if (!forecaster.would_make(joint, tag, outlook.catalogue.find(tag.module))) continue;
-      return made_by(joint, tag, outlook.sources, "is switched off");
+      return Tagged{joint, tag};
     }
   }
-  return {};
+  return std::nullopt;
 }
 
 }  // namespace
+
+std::optional<std::string> missing_feature(const Outlook& outlook,
+                                           const selector::Selector& selector,
+                                           const traversal::Context& context) {
+  for (const selector::Choice& choice : selector.choices) {
+    if (!choice.made) continue;
+    const auto off = switched_off(outlook, Forecaster(choice, context));
+    if (!off || off->tag.feature < 0) continue;
+    const auto& feature = off->joint.features[static_cast<std::size_t>(off->tag.feature)];
+    if (!feature.on && !feature.name.empty()) return feature.name;
+  }
+  return std::nullopt;
+}
 
 std::string forecast(const Outlook& outlook, const selector::Choice& choice,
                      const traversal::Context& context) {
@@ -129,7 +147,8 @@ std::string forecast(const Outlook& outlook, const selector::Choice& choice,
     return made_by(joint, tag, outlook.sources, "runs later") +
            "; give that command an earlier stage or this one a later";
   }
-  return switched_off(outlook, forecaster);
+  const auto off = switched_off(outlook, forecaster);
+  return off ? made_by(off->joint, off->tag, outlook.sources, "is switched off") : std::string();
 }
 
 }  // namespace rigc::processor

@@ -4,6 +4,7 @@
 // tests/processor/forecast_test.cpp
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "base/diagnostics.h"
@@ -26,5 +27,11 @@ struct Outlook {
 /// command would make it.
 std::string forecast(const Outlook& outlook, const selector::Choice& choice,
                      const traversal::Context& context);
+
+/// The feature that is off and whose command would make what an optional selector does not find.
+/// Nothing where no command would: a model without such a joint, a command that is off by itself.
+std::optional<std::string> missing_feature(const Outlook& outlook,
+                                           const selector::Selector& selector,
+                                           const traversal::Context& context);
 
 }  // namespace rigc::processor

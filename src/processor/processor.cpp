@@ -17,12 +17,14 @@ namespace rigc::processor {
 using scene::NodeId;
 
 Processor::Processor(const tags::TaggedSkeleton& skeleton, const CommandList& commands,
-                     const catalog::Catalogue& catalogue, std::uint32_t rig)
+                     const catalog::Catalogue& catalogue, std::uint32_t rig,
+                     tags::Geometry geometry)
     : skeleton_(skeleton),
       commands_(commands),
       catalogue_(catalogue),
       scene_(std::make_unique<scene::Scene>()),
-      rig_(rig) {
+      rig_(rig),
+      geometry_(std::move(geometry)) {
   make_joints();
 }
 
@@ -70,20 +72,65 @@ bool Processor::construct(std::size_t at, scene::Edit& edit, Diagnostics& diagno
                              command.base);
   if (!bound) return false;
   if (const auto* skipped = std::get_if<modules::Skipped>(&*bound)) {
-    diagnostics.report(
-        codes::kSkipped, tag.span,
-        fmt::format("command \"{}\" is skipped: \"{}\" finds nothing", tag.id, skipped->parameter));
+    report_skipped(at, skipped->parameter, diagnostics);
     skipped_.push_back(true);
     return true;
   }
-  const modules::Builder::Job job{skeleton_,    catalogue_,    index_,
-                                  tag,          command.joint, static_cast<std::uint32_t>(at),
-                                  side_middle_, diagnostics};
+  const modules::Builder::Job job{skeleton_, catalogue_,    index_,
+                                  tag,       command.joint, static_cast<std::uint32_t>(at),
+                                  geometry_, side_middle_,  diagnostics};
   modules::Builder builder(job, std::move(std::get<modules::Parameters>(*bound)), edit);
   command.module->construct(builder);
   if (builder.failed() || diagnostics.errors() > errors) return false;
   skipped_.push_back(false);
   return true;
+}
+
+/// The feature that is off and whose command would make what an argument names; of a list, the
+/// first such.
+std::optional<std::string> Processor::feature_off_for(std::size_t at, const Literal* argument,
+                                                      const Diagnostics& diagnostics) {
+  if (!argument) return std::nullopt;
+  for (const Literal& item : argument->items)
+    if (auto off = feature_off_for(at, &item, diagnostics)) return off;
+  if (argument->kind != Literal::Kind::text) return std::nullopt;
+  Diagnostics quiet;
+  const auto selector = selector::parse(argument->text, argument->span, quiet);
+  const Outlook outlook{skeleton_, commands_, catalogue_, at, diagnostics.sources()};
+  return selector ? missing_feature(outlook, *selector, context(at)) : std::nullopt;
+}
+
+/// Where the reason is a feature that somebody turned off, all that it stops is told at once; what
+/// is off by default misses nobody.
+void Processor::report_skipped(std::size_t at, const std::string& parameter,
+                               Diagnostics& diagnostics) {
+  const Command& command = commands_.commands[at];
+  const tags::TaggedJoint& joint = skeleton_.joints[command.joint];
+  const tags::CommandTag& tag = tag_of(skeleton_, command);
+  const auto off = feature_off_for(at, tag.find(parameter), diagnostics);
+  if (!off) {
+    diagnostics.report(
+        codes::kSkipped, tag.span,
+        fmt::format("command \"{}\" is skipped: \"{}\" finds nothing", tag.id, parameter));
+    return;
+  }
+  const bool by_default =
+      std::any_of(skeleton_.features.begin(), skeleton_.features.end(),
+                  [&](const auto& feature) { return feature.name == *off && !feature.on; });
+  if (by_default) return;
+  const std::string& own =
+      tag.feature < 0 ? tag.id : joint.features[static_cast<std::size_t>(tag.feature)].name;
+  std::vector<std::string>& names = idle_[*off];
+  const std::string& name = own.empty() ? tag.id : own;
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+void Processor::report_idle(Diagnostics& diagnostics) {
+  for (const auto& [off, names] : idle_)
+    diagnostics.report(codes::kIdleFeatures, Place(),
+                       fmt::format("feature \"{}\" is off: what works on it is left out of {}", off,
+                                   join(names, ", ")));
+  idle_.clear();
 }
 
 bool Processor::step(Diagnostics& diagnostics) {
@@ -96,6 +143,7 @@ bool Processor::step(Diagnostics& diagnostics) {
     return false;
   }
   journals_.push_back(std::move(journal));
+  if (position() == commands_.commands.size()) report_idle(diagnostics);
   return true;
 }
 
@@ -129,6 +177,7 @@ bool Processor::go_to(std::size_t target, Diagnostics& diagnostics) {
   while (position() < target) {
     if (!step(diagnostics)) return false;
   }
+  report_idle(diagnostics);
   return true;
 }
 

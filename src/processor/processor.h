@@ -3,6 +3,7 @@
 // undoes exactly that command. Test: tests/processor/processor_test.cpp
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,7 +20,8 @@ class Processor {
   /// All arguments outlive the processor. Makes the skeleton's joints at once. `rig`: number of the
   /// rig in its file.
   Processor(const tags::TaggedSkeleton& skeleton, const CommandList& commands,
-            const catalog::Catalogue& catalogue, std::uint32_t rig = 0);
+            const catalog::Catalogue& catalogue, std::uint32_t rig = 0,
+            tags::Geometry geometry = {});
 
   /// Runs the next command. On an error the scene is as it was before the command; the position
   /// stays.
@@ -53,6 +55,10 @@ class Processor {
   void make_joints();
   bool construct(std::size_t command, scene::Edit& edit, Diagnostics& diagnostics);
   traversal::Context context(std::size_t command) const;
+  std::optional<std::string> feature_off_for(std::size_t command, const Literal* argument,
+                                             const Diagnostics& diagnostics);
+  void report_skipped(std::size_t command, const std::string& parameter, Diagnostics& diagnostics);
+  void report_idle(Diagnostics& diagnostics);
 
   const tags::TaggedSkeleton& skeleton_;
   const CommandList& commands_;
@@ -61,7 +67,10 @@ class Processor {
   traversal::Index index_;
   std::vector<scene::Journal> journals_;
   std::vector<bool> skipped_;
+  /// By feature that is off: what has nothing to work on because of it, and is not yet reported.
+  std::map<std::string, std::vector<std::string>> idle_;
   std::uint32_t rig_ = 0;
+  tags::Geometry geometry_;
   double side_middle_ = 0;
 };
 

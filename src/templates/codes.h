@@ -229,6 +229,32 @@ inline constexpr Code kTooMuchToGuess{
     "Guessing compares every joint of the template with every bone, and stops at four million "
     "pairs. Write the map by hand."};
 
+// Guides: 900 to 909.
+inline constexpr Code kBadGuide{900, Severity::error, "guides cannot be read",
+                                "A guides file names joints and controls and says where they are "
+                                "and what they look like; `rigc guides TEMPLATE -o guides.yaml` "
+                                "writes one."};
+inline constexpr Code kOtherGuides{901, Severity::error, "guides are of another template",
+                                   "`guides:` names the template that the file lies over. A "
+                                   "template that was renamed says so with `was:`."};
+inline constexpr Code kUnknownGuide{
+    902, Severity::error, "no such joint or control",
+    "Guides are called by group and label (arm_l.elbow), by group and number (spine[1]), or, "
+    "without a group, by the joint's handle in the template."};
+inline constexpr Code kGuideTwice{903, Severity::error, "joint has two guides",
+                                  "Two names of one joint: keep one of them."};
+inline constexpr Code kGuideOfModel{
+    904, Severity::error, "joint of the model cannot be moved",
+    "The model's skin is bound to its joints where they stand, and its clips move them from there; "
+    "rigc leaves both as they are. Move the joint in the program that made the model, or let a map "
+    "give the template's joint no bone (`~`): rigc then makes one."};
+inline constexpr Code kGuideGone{905, Severity::warning, "moved joint is gone",
+                                 "The template, fitted to this model, has no such joint any more. "
+                                 "What was said of it stays in the file as a comment."};
+inline constexpr Code kBadBetween{906, Severity::error, "guide lies between nothing",
+                                  "`guide: {between: [a, b]}` takes two different joints, neither "
+                                  "of which lies between others itself."};
+
 inline constexpr const Code* kTemplatesCodes[] = {&kUnknownFormat,
                                                   &kMissingKey,
                                                   &kNotAllowed,
@@ -292,6 +318,13 @@ inline constexpr const Code* kTemplatesCodes[] = {&kUnknownFormat,
                                                   &kMapEntryTwice,
                                                   &kMapEntryIdle,
                                                   &kMapBoneAbsent,
-                                                  &kTooMuchToGuess};
+                                                  &kTooMuchToGuess,
+                                                  &kBadGuide,
+                                                  &kOtherGuides,
+                                                  &kUnknownGuide,
+                                                  &kGuideTwice,
+                                                  &kGuideOfModel,
+                                                  &kGuideGone,
+                                                  &kBadBetween};
 
 }  // namespace rigc::templates::codes

@@ -76,7 +76,10 @@ void Expander::add_use(const Template& source, const Part* part, int outer) {
     use.mirrored = around.mirrored != part->mirror.has_value();
   }
   uses_.push_back(std::move(use));
-  if (!bind_parameters(index)) return;
+  if (!bind_parameters(index)) {
+    if (part) leave_out(*part, outer);
+    return;
+  }
   add_joints(index);
   add_parts(index);
 }
@@ -143,6 +146,13 @@ void Expander::add_joint(int use, std::size_t index) {
   register_handles(static_cast<int>(joints_.size()) - 1);
 }
 
+/// What names its joints must not be reported, too.
+void Expander::leave_out(const Part& part, int use) {
+  left_out_.insert(&part);
+  for (int at = use; at >= 0; at = uses_[static_cast<std::size_t>(at)].outer)
+    uses_[static_cast<std::size_t>(at)].lacks_joints = true;
+}
+
 void Expander::add_parts(int use) {
   const Template& source = *uses_[static_cast<std::size_t>(use)].source;
   uses_[static_cast<std::size_t>(use)].parts.assign(source.parts.size(), kAbsent);
@@ -153,11 +163,17 @@ void Expander::add_parts(int use) {
     if (owner.depth + 1 >= kMostDepth) {
       diagnostics_.report(codes::kTooMuch, part.span,
                           fmt::format("parts are nested more than {} deep", kMostDepth));
+      leave_out(part, use);
       continue;
     }
     if (!fits(part.span)) return;
-    const Template* inner = library_.open_part(part, source, diagnostics_);
-    if (!inner) continue;
+    // A template that is used twice lacks its part twice, and that is reported once.
+    const Template* inner =
+        left_out_.contains(&part) ? nullptr : library_.open_part(part, source, diagnostics_);
+    if (!inner) {
+      leave_out(part, use);
+      continue;
+    }
     bool cycle = false;
     for (int at = use; at >= 0; at = uses_[static_cast<std::size_t>(at)].outer) {
       const Template* around = uses_[static_cast<std::size_t>(at)].source;
@@ -166,6 +182,7 @@ void Expander::add_parts(int use) {
     if (cycle) {
       diagnostics_.report(codes::kPartCycle, part.span,
                           fmt::format("the template {} would be a part of itself", inner->name));
+      leave_out(part, use);
       continue;
     }
     uses_[static_cast<std::size_t>(use)].parts[i] = static_cast<int>(uses_.size());
@@ -206,6 +223,7 @@ Expanded Expander::finish() {
     raw.result.tagged.parent = renumbered(raw.parent);
     raw.result.toward = renumbered(raw.result.toward);
     raw.result.opposite = renumbered(raw.result.opposite);
+    for (int& end : raw.result.between) end = renumbered(end);
     out.joints.push_back(std::move(raw.result));
   }
   for (ExpandedJoint& joint : out.joints)

@@ -4,6 +4,7 @@
 // count. Test: tests/templates/expand_test.cpp
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,8 +31,10 @@ struct ExpandedJoint {
   Placement placement;         ///< in the instance's model space
   std::optional<Chain> chain;  ///< its count is final
   bool helper = false;
-  int toward = -1;    ///< the joint that `orient` aims at; -1: none
-  int opposite = -1;  ///< index of the joint on the other side
+  int toward = -1;            ///< the joint that `orient` aims at; -1: none
+  int opposite = -1;          ///< index of the joint on the other side
+  int between[2] = {-1, -1};  ///< joints whose guides take it along; -1: none
+  double share = 0.5;         ///< how much of the second one's way it goes
   int instance = 0;
   std::size_t ordinal_in_template = 0;  ///< index into the joints of the instance's template
 };
@@ -55,5 +58,12 @@ std::string other_side(std::string_view name);
 
 /// The template's own skeleton, in its own proportions.
 std::optional<tags::TaggedSkeleton> place(const Expanded& expanded, Diagnostics& diagnostics);
+
+/// Places of joints by key, in the main template's model space, metres.
+using Moves = std::map<JointKey, math::Vec3>;
+/// The same with joints put elsewhere. Others are where they are written: `at` in model space,
+/// `translate` below their parent. What `orient:` says is done for the places that come out.
+std::optional<tags::TaggedSkeleton> place_pinned(const Expanded& expanded, const Moves& pinned,
+                                                 Diagnostics& diagnostics);
 
 }  // namespace rigc::templates

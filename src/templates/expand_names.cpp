@@ -70,7 +70,7 @@ void Expander::register_handles(int index) {
 }
 
 /// The joint that a word means in a template; reports what it cannot mean. kAbsent without a
-/// report.
+/// report, as kUnknown where a part that may have the joint is missing.
 int Expander::resolve(int use, const std::string& word, const Span& span, const char* key) {
   const Use& scope = uses_[static_cast<std::size_t>(use)];
   const int found = scope.handles.find(word);
@@ -79,7 +79,7 @@ int Expander::resolve(int use, const std::string& word, const Span& span, const 
         codes::kAmbiguousLabel, span,
         fmt::format("{}: several joints have the label \"{}\"", key, printable(word, 60)),
         "name the joint, or write GROUP.LABEL");
-  } else if (found == kUnknown) {
+  } else if (found == kUnknown && !scope.lacks_joints) {
     std::vector<std::string> names;
     if (diagnostics_.errors() < 100)
       for (const auto& entry : scope.handles.names) names.push_back(entry.first);
@@ -109,6 +109,30 @@ void Expander::resolve_parents() {
     if (orient && !orient->toward.empty())
       joint.result.toward =
           std::max(-1, resolve(joint.use, orient->toward, orient->span, "toward"));
+  }
+  resolve_between();
+}
+
+/// Ends that a condition took away leave the joint a guide of its own.
+void Expander::resolve_between() {
+  for (RawJoint& joint : joints_) {
+    const auto& between = joint.source->between;
+    if (!between) continue;
+    const int a = resolve(joint.use, between->joints[0], between->span, "between");
+    const int b = resolve(joint.use, between->joints[1], between->span, "between");
+    if (a < 0 || b < 0) continue;
+    const auto itself = [&](int end) {
+      const RawJoint& other = joints_[static_cast<std::size_t>(end)];
+      return &other == &joint || other.source->between;
+    };
+    if (a == b || itself(a) || itself(b))
+      diagnostics_.report(codes::kBadBetween, between->span,
+                          fmt::format("the guide of {} does not lie between two placed joints",
+                                      joint.result.tagged.name),
+                          "name two joints that have no `guide:` themselves");
+    joint.result.between[0] = a;
+    joint.result.between[1] = b;
+    joint.result.share = between->share;
   }
 }
 

@@ -40,9 +40,10 @@ struct Use {
   Environment environment;
   Handles handles;
   int attach = kRoot;
-  std::vector<int> joints;  ///< by index into source->joints; kAbsent
-  std::vector<int> parts;   ///< by index into source->parts: uses; kAbsent
-  bool mirrored = false;    ///< as seen in the main template's space
+  std::vector<int> joints;    ///< by index into source->joints; kAbsent
+  std::vector<int> parts;     ///< by index into source->parts: uses; kAbsent
+  bool mirrored = false;      ///< as seen in the main template's space
+  bool lacks_joints = false;  ///< a part of it, or of one of these, is missing: that is reported
   int template_index = 0;
 };
 
@@ -67,6 +68,7 @@ class Expander {
   void add_parts(int use);
   void add_joints(int use);
   void add_joint(int use, std::size_t index);
+  void leave_out(const Part& part, int use);
   bool fits(const Span& span);
   int template_index(const Template& source);
 
@@ -80,6 +82,7 @@ class Expander {
   std::string group_in_outer(const Use& use, const std::string& local) const;
   std::string final_group(int use, std::string local) const;
   void resolve_parents();
+  void resolve_between();
   int resolve(int use, const std::string& word, const Span& span, const char* key);
   void find_absent(bool report_none_left);
 
@@ -115,6 +118,7 @@ class Expander {
   tags::TaggedSkeleton skeleton_;
   std::size_t joint_count_ = 0;  ///< with all joints of chains
   bool full_ = false;
+  std::set<const Part*> left_out_;  ///< that were reported
   /// Tags that were reported: a part that is used twice has its mistakes once.
   std::set<std::pair<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>>> undeclared_;
 };

@@ -119,6 +119,10 @@ const Section& joint_format() {
         Form::numbers,
         "Three numbers above 0; leave it out.",
         {.above = kSmallestScale, .count = 3}},
+       {"guide",
+        Form::map,
+        "The joint lies between two others until somebody moves it.",
+        {.section = &between_format()}},
        {"local", Form::name, "Identifier: the limb that the joint belongs to."},
        {"global", Form::name, "Identifier: the rig, if not this template's own."},
        {"label", Form::name, "Identifier: which joint of the limb it is."},
@@ -295,6 +299,18 @@ const Section& map_format() {
         "`GROUP.LABEL: Bone` or a list of which the first counts that is there; `GROUP: [Bone, "
         "...]` for the group's chain; `~` where the model has no such bone.",
         {.required = true}}}};
+  return kFormat;
+}
+
+const Section& between_format() {
+  static const Section kFormat{
+      "guide",
+      "a guide",
+      {{"between", Form::names, "The two joints that it lies between.", {.required = true}},
+       {"at",
+        Form::number,
+        "How much of the second one's way it goes along, 0 to 1 (default: 0.5).",
+        {.min = 0, .max = 1}}}};
   return kFormat;
 }
 

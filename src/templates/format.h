@@ -22,5 +22,9 @@ const yaml::Section& command_format();
 const yaml::Section& feature_format();  ///< of a tag
 const yaml::Section& part_format();
 const yaml::Section& map_format();
+const yaml::Section& between_format();  ///< of a joint's `guide:`
+const yaml::Section& guides_format();   ///< a guides file
+const yaml::Section& guide_format();    ///< of a joint in it
+const yaml::Section& control_edit_format();
 
 }  // namespace rigc::templates

@@ -21,6 +21,8 @@ using math::Vec3;
 constexpr std::size_t kMostPairs = 4'000'000;
 constexpr double kRequired = 0.5;  // what a bone for a required joint is worth
 constexpr double kOptional = 0.03;
+constexpr double kBeside = -0.2;     // where another joint may be meant
+constexpr double kOnePlace = 0.01;   // of the height
 constexpr double kSureName = 2;      // what the name in a map that fits is worth
 constexpr double kLikelyName = 0.5;  // ... in one that does not
 constexpr double kOtherSide = 1.5;   // what the word of the wrong side costs
@@ -33,6 +35,7 @@ class Guesser {
 
  private:
   double name_score(std::size_t joint, std::size_t bone) const;
+  void weigh_neighbours();
   void take_names(const MapTrial& trial);
   Vec3 left_by_names() const;
   void swap_sides();
@@ -55,11 +58,13 @@ class Guesser {
   std::vector<std::string> references_;
   GuessWords words_;
   const MapTrial* trial_;
-  bool strong_ = false;                    ///< the nearest map fits, or goes by whole names
-  bool swapped_ = false;                   ///< names say left where the body says right
-  double height_ = 1;                      ///< of the template
-  std::vector<std::size_t> expanded_of_;   ///< by placed joint
-  std::vector<std::vector<int>> own_of_;   ///< by expanded joint: placed joints
+  bool strong_ = false;                   ///< the nearest map fits, or goes by whole names
+  bool swapped_ = false;                  ///< names say left where the body says right
+  double height_ = 1;                     ///< of the template
+  std::vector<std::size_t> expanded_of_;  ///< by placed joint
+  std::vector<std::vector<int>> own_of_;  ///< by expanded joint: placed joints
+  std::vector<bool>
+      beside_;  ///< by placed joint: another lies where it does, as an eye by its lids
   std::vector<std::vector<int>> by_name_;  ///< by expanded joint: bones
   std::vector<int> named_;                 ///< by bone: expanded joint; -1
   std::vector<bool> used_;                 ///< by bone
@@ -97,10 +102,24 @@ Guesser::Guesser(const Expanded& expanded, const tags::TaggedSkeleton& placed,
     high = std::max(high, input_.joints.back().at.y);
   }
   height_ = std::max(high - low, 1e-9);
+  weigh_neighbours();
   for (const tags::ForeignJoint& joint : skeleton.joints)
     input_.bones.push_back({joint.parent, skeleton.ancestor_world * joint.rest.origin, 0});
   input_.left = left_by_names();
   input_.names = [this](std::size_t joint, std::size_t bone) { return name_score(joint, bone); };
+}
+
+/// Of leaves that hang nearly in one place, as an eye and its lids, a bone is rather the first.
+void Guesser::weigh_neighbours() {
+  std::vector<AlignNode>& joints = input_.joints;
+  std::vector<bool> leaf(joints.size(), true);
+  for (const AlignNode& joint : joints)
+    if (joint.parent >= 0) leaf[static_cast<std::size_t>(joint.parent)] = false;
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    for (std::size_t k = 0; k < i && leaf[i] && joints[i].weight < kRequired; ++k)
+      if (leaf[k] && joints[k].parent == joints[i].parent &&
+          length(joints[k].at - joints[i].at) < kOnePlace * height_)
+        joints[i].weight = kBeside;
 }
 
 void Guesser::take_names(const MapTrial& trial) {

@@ -39,8 +39,8 @@ Mat3 reflected(const Mat3& m, int axis) {
 
 class Placer {
  public:
-  Placer(const Expanded& expanded, Diagnostics& diagnostics)
-      : expanded_(expanded), diagnostics_(diagnostics) {}
+  Placer(const Expanded& expanded, const Moves& pinned, Diagnostics& diagnostics)
+      : expanded_(expanded), pinned_(pinned), diagnostics_(diagnostics) {}
   std::optional<tags::TaggedSkeleton> run();
 
  private:
@@ -58,6 +58,7 @@ class Placer {
   Affine seen_from(int instance, const Affine& main) const;
   bool lies_in(int instance, int outer) const;
   Affine view(int instance, std::size_t joint) const;
+  std::optional<Vec3> pinned(std::size_t index, std::uint32_t ordinal, int instance) const;
   std::optional<Vec3> target(std::size_t index) const;
   math::Trs own_rest(std::size_t index, const Affine& parent);
   Mat3 aimed(const ExpandedJoint& joint, const Orient& orient, Vec3 from, Vec3 to);
@@ -67,6 +68,7 @@ class Placer {
   math::Trs across(const math::Trs& rest, int instance) const;
 
   const Expanded& expanded_;
+  const Moves& pinned_;
   Diagnostics& diagnostics_;
   std::vector<Space> spaces_;
   std::vector<Placed> placed_;
@@ -143,13 +145,28 @@ Affine Placer::view(int instance_index, std::size_t index) const {
           rotate(back, frame.origin - instance.at) * (1 / instance.size)};
 }
 
+/// Where guides put a joint, in the space of an instance.
+std::optional<Vec3> Placer::pinned(std::size_t index, std::uint32_t ordinal, int instance) const {
+  if (pinned_.empty()) return std::nullopt;
+  JointKey key = expanded_.joints[index].tagged.key;
+  key.ordinal = ordinal;
+  const auto found = pinned_.find(key);
+  if (found == pinned_.end()) return std::nullopt;
+  return inverse(spaces_[static_cast<std::size_t>(instance)].to_main) * found->second;
+}
+
 /// Where `orient` of a joint points to, in the space of its instance.
 std::optional<Vec3> Placer::target(std::size_t index) const {
   const ExpandedJoint& joint = expanded_.joints[index];
   const bool to_end = joint.chain && joint.chain->steps.empty();
-  if (joint.toward < 0 && to_end) return joint.chain->to;
+  if (joint.toward < 0 && to_end) {
+    const auto last = static_cast<std::uint32_t>(joint.chain->count.value - 1);
+    const auto moved = last > 0 ? pinned(index, last, joint.instance) : std::nullopt;
+    return moved.value_or(joint.chain->to);
+  }
   const int at = joint.toward >= 0 ? joint.toward : first_child_[index];
   if (at < 0) return std::nullopt;
+  if (const auto moved = pinned(static_cast<std::size_t>(at), 0, joint.instance)) return moved;
   const ExpandedJoint& other = expanded_.joints[static_cast<std::size_t>(at)];
   Vec3 point;
   if (other.placement.space == Placement::Space::model)
@@ -192,6 +209,8 @@ math::Trs Placer::own_rest(std::size_t index, const Affine& parent) {
   rest.translation = placement.space == Placement::Space::parent
                          ? placement.position
                          : inverse(parent) * placement.position;
+  if (const auto moved = pinned(index, 0, joint.instance))
+    rest.translation = inverse(parent) * *moved;
   rest.rotation = placement.rotation;
   if (!placement.orient) return rest;
   const auto to = target(index);
@@ -257,6 +276,8 @@ void Placer::place_joint(std::size_t index) {
       step.translation = inverse(own) * lerp(first, joint.chain->to, share);
     else
       step = joint.chain->steps[static_cast<std::size_t>(i) - 1];
+    if (const auto moved = pinned(index, static_cast<std::uint32_t>(i), joint.instance))
+      step.translation = inverse(own) * *moved;
     own = own * compose(step);
     main = to_main(joint.instance, own);
     above = static_cast<int>(out_.joints.size()) - 1;
@@ -282,7 +303,14 @@ std::optional<tags::TaggedSkeleton> Placer::run() {
 
 std::optional<tags::TaggedSkeleton> place(const Expanded& expanded, Diagnostics& diagnostics) {
   const trace::Span span("place");
-  return Placer(expanded, diagnostics).run();
+  const Moves nothing;
+  return Placer(expanded, nothing, diagnostics).run();
+}
+
+std::optional<tags::TaggedSkeleton> place_pinned(const Expanded& expanded, const Moves& pinned,
+                                                 Diagnostics& diagnostics) {
+  const trace::Span span("place");
+  return Placer(expanded, pinned, diagnostics).run();
 }
 
 }  // namespace rigc::templates

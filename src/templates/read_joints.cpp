@@ -58,6 +58,24 @@ void read_identifiers(Reader& reader, const yaml::Node& node, Joint& joint) {
   read("label", joint.ids.label);
 }
 
+void read_between(Reader& reader, const yaml::Node& node, Joint& joint) {
+  if (!yaml::check_section(node, between_format(), reader.diagnostics)) return;
+  Between between;
+  between.span = node.span;
+  if (const yaml::Node* joints = reader.required(node, "between", "a guide"))
+    between.joints = reader.names(*joints, "between");
+  if (const yaml::Node* at = node.find("at")) {
+    between.share = yaml::as_number(*at, "at", reader.diagnostics).value_or(0.5);
+    if (!(between.share >= 0 && between.share <= 1))
+      reader.error(codes::kNotAllowed, at->span, "at: a share from 0 to 1 is needed");
+  }
+  if (between.joints.size() == 2)
+    joint.between = std::move(between);
+  else
+    reader.error(codes::kBadBetween, node.span, "a guide lies between two joints",
+                 "write `guide: {between: [elbow, wrist]}`");
+}
+
 void read_joint(Reader& reader, const yaml::Node& node) {
   if (!yaml::check_section(node, joint_format(), reader.diagnostics) && !node.is_map()) return;
   Joint joint;
@@ -72,6 +90,7 @@ void read_joint(Reader& reader, const yaml::Node& node) {
   }
   read_placement(reader, node, joint);
   read_identifiers(reader, node, joint);
+  if (const yaml::Node* guide = node.find("guide")) read_between(reader, *guide, joint);
   if (const yaml::Node* flag = node.find("optional"))
     joint.optional = yaml::as_bool(*flag, "optional", reader.diagnostics).value_or(false);
   if (const yaml::Node* flag = node.find("helper"))
@@ -167,6 +186,9 @@ void read_joints(Reader& reader, const yaml::Node& node) {
       if (joint.placement.orient)
         check_word(reader, find, joint.placement.orient->toward, joint.placement.orient->span,
                    "toward");
+      if (joint.between)
+        for (const std::string& word : joint.between->joints)
+          check_word(reader, find, word, joint.between->span, "between");
     }
   }
   check_cycles(reader, find);

@@ -55,6 +55,13 @@ struct Placement {
   math::Vec3 scale{1, 1, 1};
 };
 
+/// `guide: {between: [elbow, wrist], at: 0.5}`: moves along with both until it is moved itself.
+struct Between {
+  std::vector<std::string> joints;  ///< two names or labels
+  double share = 0.5;               ///< of the way from the first to the second
+  Span span;
+};
+
 /// A number that may come from a parameter.
 struct Count {
   int value = 1;
@@ -88,6 +95,7 @@ struct Joint {
   std::string parent;  ///< a joint or label; empty: a root (of a part: hangs on `attach`)
   Placement placement;
   std::optional<Chain> chain;
+  std::optional<Between> between;
   Identifiers ids;        ///< `global` empty: the template's
   bool optional = false;  ///< may be missing in a fitted model
   bool helper = false;    ///< not a bone: made by rigc where a fitted model has no such joint

@@ -90,6 +90,15 @@ TEST_CASE("catalog mismatch: types") {
       {T::value,
        {"1", "on", "text", "[1, 2, 3]"},
        {{"[1, 2]", "p: expected a number, true or false, a text or [x, y, z], not a list"}}},
+      {T::texts,
+       {"a", "[a, b]"},
+       {{"3", "p: expected a list of texts, not 3"}, {"[a, 3]", "p: expected a text, not 3"}}},
+      {T::table,
+       {"[[1]]", "[[1, 2], [3, 4]]"},
+       {{"3", "p: expected a list of rows, not 3"},
+        {"[1, 2]", "p: expected a row of numbers, not 1"},
+        {"[[1, a]]", "p: expected a row of numbers, not a list"},
+        {"[[1, 2], [3]]", "p: a row of 1 where the first has 2"}}},
   };
   for (const Case& one : cases) {
     CAPTURE(name_of(one.type));
@@ -98,7 +107,7 @@ TEST_CASE("catalog mismatch: types") {
       CHECK(message(parameter(one.type), value) == expected);
     }
   }
-  CHECK(std::size(cases) == static_cast<std::size_t>(T::value));  // all but enum
+  CHECK(std::size(cases) == static_cast<std::size_t>(T::table));  // all but enum
 }
 
 TEST_CASE("catalog mismatch: ranges and enums") {

@@ -262,13 +262,12 @@ TEST_CASE("templates expand: the biped's hands have as many fingers as asked for
     const Folder folder("expand_fingers");
     Diagnostics diagnostics;
     const auto expanded = expand_file(
-        folder.write(
-            "one.yaml",
-            with_head(
-                "joints: [{name: chest, local: spine, label: chest}]\n"
-                "parts: [{template: parts/arm, as: arm_l, attach: chest, groups: {spine: spine}, "
-                "with: {fingers: " +
-                std::to_string(fingers) + "}}]\n")),
+        folder.write("one.yaml",
+                     with_head("joints: [{name: chest, local: spine, label: chest}]\n"
+                               "parts: [{template: parts/arm, as: arm_l, attach: chest, "
+                               "groups: {spine: spine, torso: spine, head: spine, root: spine}, "
+                               "with: {fingers: " +
+                               std::to_string(fingers) + "}}]\n")),
         diagnostics, {template_folder()});
     REQUIRE_MESSAGE(expanded, render(diagnostics, false));
     // each finger but the thumb has a metacarpal

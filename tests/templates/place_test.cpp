@@ -244,7 +244,7 @@ TEST_CASE("templates place: the biped is a symmetric figure of 1.75 m with bent 
     CHECK(distance(placed->world(static_cast<std::size_t>(other)).origin,
                    flipped(placed->world(i).origin)) < 1e-9);
   }
-  CHECK(pairs == 68);
+  CHECK(pairs == 72);
   const auto at = [&](const char* name) {
     return placed->world(joint_named(*placed, name)).origin;
   };
