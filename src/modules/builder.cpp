@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+
 #include "base/text.h"
 #include "modules/codes.h"
 #include "scene/formula.h"
@@ -22,6 +25,60 @@ const tags::TaggedJoint* Builder::tagged(NodeId joint) const {
   if (!node.is_skeleton()) return nullptr;
   const int found = job_.skeleton.find(node.identity.owner);
   return found < 0 ? nullptr : &job_.skeleton.joints[static_cast<std::size_t>(found)];
+}
+
+std::vector<tags::BoundVertex> Builder::vertices(const std::vector<NodeId>& joints) const {
+  std::vector<int> nodes;
+  math::Affine bound;
+  for (NodeId joint : joints) {
+    const tags::TaggedJoint* of_model = joint.valid() ? tagged(joint) : nullptr;
+    if (!of_model || of_model->foreign_node < 0) continue;
+    if (nodes.empty()) bound = scene().rest_world(joint);
+    nodes.push_back(of_model->foreign_node);
+  }
+  if (!job_.geometry.vertices || nodes.empty()) return {};
+  std::vector<tags::BoundVertex> found = job_.geometry.vertices(nodes);
+  for (tags::BoundVertex& vertex : found) vertex.at = bound * vertex.at;
+  return found;
+}
+
+namespace {
+
+/// Brings a surface into a space. Mirrored triangles are seen from their other side.
+void place(tags::Surface& surface, const math::Affine& into) {
+  for (math::Vec3& at : surface.places) at = into * at;
+  if (math::determinant(into.linear) < 0)
+    for (auto& corners : surface.triangles) std::swap(corners[1], corners[2]);
+}
+
+}  // namespace
+
+std::optional<tags::Surface> Builder::surface(const std::string& name) const {
+  if (!job_.geometry.surfaces) return std::nullopt;
+  std::map<int, const tags::TaggedJoint*> joints;
+  for (const tags::TaggedJoint& joint : skeleton().joints)
+    if (joint.foreign_node >= 0) joints.emplace(joint.foreign_node, &joint);
+  const int own = skeleton().joints[job_.joint].foreign_node;
+  std::vector<tags::Surface> moved, others;
+  for (tags::Surface& surface : job_.geometry.surfaces(name)) {
+    const auto& bound = surface.bound;
+    auto by = std::find_if(bound.begin(), bound.end(),
+                           [&](const auto& each) { return each.first == own; });
+    if (by == bound.end())
+      by = std::find_if(bound.begin(), bound.end(),
+                        [&](const auto& each) { return joints.count(each.first) != 0; });
+    if (by != bound.end()) {
+      const NodeId joint = index().joint(joints.at(by->first)->key);
+      place(surface, scene().rest_world(joint) * by->second);
+    }
+    (by != bound.end() ? moved : others).push_back(std::move(surface));
+  }
+  if (moved.empty() && others.empty()) return std::nullopt;
+  if (moved.size() == 1) return std::move(moved.front());
+  tags::Surface none;
+  none.trouble = moved.empty() ? "no joint of this rig moves it"
+                               : fmt::format("{} nodes with a mesh have this name", moved.size());
+  return none;
 }
 
 Identifiers Builder::identifiers(NodeId joint) const {
@@ -50,6 +107,8 @@ NodeId Builder::make(const NewNode& request) {
   if (name && joint == joint_ && node.identity.counter == 0 && request.suffix.empty() &&
       (request.role == "control" || request.role == "joint" || request.role == "transform")) {
     node.name = base;
+  } else if (request.kind == scene::Kind::control && node.identity.counter > 0) {
+    node.name += "_" + std::to_string(node.identity.counter + 1);
   }
   node.command = job_.command_index;
   node.module = job_.command.module;

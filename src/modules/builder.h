@@ -3,6 +3,7 @@
 // Test: tests/modules/builder_test.cpp
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -35,6 +36,7 @@ class Builder {
     const tags::CommandTag& command;
     std::size_t joint = 0;  ///< index in skeleton of the joint that holds the command
     std::uint32_t command_index = 0;
+    const tags::Geometry& geometry;  ///< of the model; empty without one
     double side_middle = 0;  ///< where the skeleton's middle lies along the character's left
     Diagnostics& diagnostics;
   };
@@ -54,6 +56,15 @@ class Builder {
   NodeId joint() const { return joint_; }
   /// The tagged joint behind a skeleton joint; null for nodes that commands made.
   const tags::TaggedJoint* tagged(NodeId joint) const;
+
+  /// The vertices of the model that joints and all below them move, with their weight; in rig space
+  /// at rest. Empty where there is no model.
+  std::vector<tags::BoundVertex> vertices(const std::vector<NodeId>& joints) const;
+  /// A mesh that joints of the rig move, by the name of its node or its own, in rig space at rest
+  /// as the joint that holds the command moves it, or else the first one that does. Nothing where
+  /// the model has none of this name, or there is no model; its `trouble` says why it cannot be
+  /// used.
+  std::optional<tags::Surface> surface(const std::string& name) const;
 
   NodeId make(const NewNode& node);
   void set(const Plug& plug, const scene::Value& value) { edit_.set(plug, value); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Diagnostic codes 460..499: what module constructors refuse.
+// Diagnostic codes 460..499 and 860..899: what module constructors refuse.
 #pragma once
 
 #include "base/diagnostics.h"
@@ -59,6 +59,11 @@ inline constexpr Code kPoleOnLine{
     481, Severity::error, "pole on the line of the chain",
     "A pole on the line from a chain's start to its end says no side to bend to."};
 
+inline constexpr Code kTwistUnknown{
+    912, Severity::error, "twist cannot be told from what it causes",
+    "The end of the bone hangs under twist joints of the model: its turn is read from the "
+    "constraint that drives it, and it has none."};
+
 inline constexpr Code kEmptyRange{490, Severity::error, "least value above the largest",
                                   "No value lies between the limits. Exchange the two."};
 inline constexpr Code kRestOutside{
@@ -87,11 +92,77 @@ inline constexpr Code kGroupName{
     "Names of layers, sets and switches have letters, digits, `_` and `-`, and do not start with a "
     "digit."};
 
+inline constexpr Code kNoLimb{
+    498, Severity::error, "not an IK/FK limb",
+    "The command adds to a limb that `ik_fk_limb` built: name one of its controls."};
+
+inline constexpr Code kNoRadius{
+    499, Severity::error, "a wheel of no size",
+    "A wheel is as large as its axle rests above what carries it. Give `radius`, or a `carrier` on "
+    "the ground."};
+
+inline constexpr Code kNames{870, Severity::error, "names do not fit",
+                             "Each item has one name of its own, in the same order: letters, "
+                             "digits, `_` and `-`, not starting with a digit."};
+inline constexpr Code kNoZero{
+    871, Severity::error, "control has no zero",
+    "What a control follows is switched at the transform above it, which holds its rest placement. "
+    "Controls that rigc's commands make have one."};
+inline constexpr Code kTable{872, Severity::error, "table does not fit",
+                             "Each row of a table has a number for each thing that it is about, "
+                             "and no two rows say the same."};
+
+inline constexpr Code kNotAbove{
+    890, Severity::error, "control does not carry the limb",
+    "A foot rolls under its IK control or under a control that this hangs under."};
+
+// 860..869: curves, and what they squash.
+
+inline constexpr Code kDrivenBelow{
+    860, Severity::error, "something below would be sheared",
+    "A joint that is squashed is scaled unevenly. What turns or moves by itself below it would be "
+    "sheared: squash a joint of its own for the shape, without such children."};
+
+inline constexpr Code kSoleGuessed{
+    891, Severity::warning, "sole is guessed",
+    "Where a foot rolls is measured from the vertices that it moves, else from joints of the foot, "
+    "else from the height of the ankle alone."};
+
+inline constexpr Code kNoFkChain{
+    892, Severity::error, "not the controls of an FK chain",
+    "The command adds to what `fk_chain` made: name its controls, each under the one before, from "
+    "the first to the last."};
+
+inline constexpr Code kNoSurface{
+    895, Severity::warning, "surface is not in the model",
+    "The model has no mesh of this name, or there is no model: the command makes nothing, so that "
+    "one template serves characters with it and without it."};
+
+inline constexpr Code kNoLine{
+    896, Severity::error, "surface has no line to lie on",
+    "A ribbon lies where one texture coordinate of a mesh stays the same while the other rises: "
+    "the mesh has a name of its own, triangles, texture coordinates in which the strip lies "
+    "straight, and joints of the rig that move it."};
+
+inline constexpr Code kAlongOrSurface{
+    897, Severity::error, "ribbon lies on one thing",
+    "Give `along`, joints that the ribbon lies over, or `surface`, a mesh that it lies on, and not "
+    "both."};
+
+inline constexpr Code kFeetCount{893, Severity::error, "feet and legs differ in number",
+                                 "There is one foot for each leg, in the order of the legs, or "
+                                 "none at all."};
+
 inline constexpr const Code* kModulesCodes[] = {
-    &kNotAChain,       &kTooFewJoints,   &kUnknownShape,   &kAlreadyDriven,    &kAttributeExists,
-    &kValueDoesNotFit, &kNotSettable,    &kTypesDiffer,    &kNotATransform,    &kUnderItself,
-    &kWeightCount,     &kZeroLengthBone, &kRootExists,     &kNotMadeByCommand, &kSameAxis,
-    &kNoSolver,        &kPoleOnLine,     &kEmptyRange,     &kRestOutside,      &kNotMirrored,
-    &kNoLimit,         &kNotLockable,    &kSettingsDiffer, &kSetInItself,      &kGroupName};
+    &kNotAChain,       &kTooFewJoints,     &kUnknownShape, &kAlreadyDriven,
+    &kAttributeExists, &kValueDoesNotFit,  &kNotSettable,  &kTypesDiffer,
+    &kNotATransform,   &kUnderItself,      &kWeightCount,  &kZeroLengthBone,
+    &kRootExists,      &kNotMadeByCommand, &kSameAxis,     &kNoSolver,
+    &kPoleOnLine,      &kTwistUnknown,     &kEmptyRange,   &kRestOutside,
+    &kNotMirrored,     &kNoLimit,          &kNotLockable,  &kSettingsDiffer,
+    &kSetInItself,     &kGroupName,        &kNoLimb,       &kNoRadius,
+    &kNames,           &kNoZero,           &kTable,        &kNotAbove,
+    &kDrivenBelow,     &kSoleGuessed,      &kNoFkChain,    &kNoSurface,
+    &kNoLine,          &kAlongOrSurface,   &kFeetCount};
 
 }  // namespace rigc::modules::codes

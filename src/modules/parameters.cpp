@@ -40,6 +40,14 @@ const std::vector<double>& Parameters::numbers(std::string_view name) const {
   return get<std::vector<double>>(name);
 }
 
+const std::vector<std::string>& Parameters::texts(std::string_view name) const {
+  return get<std::vector<std::string>>(name);
+}
+
+const std::vector<std::vector<double>>& Parameters::table(std::string_view name) const {
+  return get<std::vector<std::vector<double>>>(name);
+}
+
 const BoundExpression& Parameters::expression(std::string_view name) const {
   return get<BoundExpression>(name);
 }
@@ -92,6 +100,19 @@ std::vector<double> curve_from(const Literal& literal) {
     points.push_back(point.items.size() > 2 ? interpolation_code(point.items[2].text) : 1);
   }
   return points;
+}
+
+std::vector<double> numbers_from(const Literal& literal) {
+  std::vector<double> numbers;
+  for (const Literal& item : literal.items) numbers.push_back(item.number);
+  return numbers;
+}
+
+std::vector<std::string> texts_from(const Literal& literal) {
+  if (literal.kind == Literal::Kind::text) return {literal.text};
+  std::vector<std::string> texts;
+  for (const Literal& item : literal.items) texts.push_back(item.text);
+  return texts;
 }
 
 bool takes_nodes(ParameterType type) {
@@ -167,10 +188,16 @@ class Binder {
       case ParameterType::color:
         slot[parameter.name] = color_from(value).value_or(math::Vec3{});
         return true;
-      case ParameterType::numbers: {
-        std::vector<double> numbers;
-        for (const Literal& item : value.items) numbers.push_back(item.number);
-        slot[parameter.name] = std::move(numbers);
+      case ParameterType::numbers:
+        slot[parameter.name] = numbers_from(value);
+        return true;
+      case ParameterType::texts:
+        slot[parameter.name] = texts_from(value);
+        return true;
+      case ParameterType::table: {
+        std::vector<std::vector<double>> rows;
+        for (const Literal& row : value.items) rows.push_back(numbers_from(row));
+        slot[parameter.name] = std::move(rows);
         return true;
       }
       case ParameterType::curve:
@@ -209,7 +236,7 @@ class Binder {
       return bind_selectors(parameter, *std::exchange(fallback_, nullptr), span);
     }
     if (nodes.empty()) {
-      if (parameter.required) skipped_ = Skipped{parameter.name};
+      if (!parameter.optional()) skipped_ = Skipped{parameter.name};
       out_.empty_.insert(parameter.name);
       return true;
     }

@@ -30,7 +30,8 @@ struct BoundExpression {
 class Parameters {
  public:
   using Value = std::variant<double, bool, std::string, math::Vec3, std::vector<double>,
-                             std::vector<NodeId>, std::vector<Plug>, BoundExpression, Literal>;
+                             std::vector<std::string>, std::vector<NodeId>, std::vector<Plug>,
+                             std::vector<std::vector<double>>, BoundExpression, Literal>;
 
   bool has(std::string_view name) const;
   /// Whether a selector that may find nothing (`?`) was written and found nothing.
@@ -41,6 +42,8 @@ class Parameters {
   math::Vec3 vec3(std::string_view name) const;  ///< vec3 (rig units where it has a unit), color
   const std::vector<double>& numbers(
       std::string_view name) const;  ///< floats; a curve: position, value, interpolation each
+  const std::vector<std::string>& texts(std::string_view name) const;          ///< strings
+  const std::vector<std::vector<double>>& table(std::string_view name) const;  ///< rows
   NodeId node(std::string_view name) const;                       ///< invalid where it was left out
   const std::vector<NodeId>& nodes(std::string_view name) const;  ///< empty where it was left out
   Plug plug(std::string_view name) const;

@@ -9,6 +9,7 @@
 
 #include "base/text.h"
 #include "modules/codes.h"
+#include "modules/shapes.h"
 
 namespace rigc::modules {
 namespace {
@@ -27,29 +28,6 @@ constexpr Vec3 kLeftColor{0.16, 0.42, 0.95};
 constexpr Vec3 kRightColor{0.93, 0.16, 0.18};
 constexpr Vec3 kMiddleColor{0.98, 0.82, 0.13};
 
-using Lines = std::vector<std::vector<Vec3>>;
-
-std::optional<Lines> find_shape(const Builder& b, const std::string& name) {
-  for (const tags::NamedShape& shape : b.skeleton().shapes) {
-    if (shape.name == name) return shape.lines;
-  }
-  const catalog::Shape* shape = b.catalogue().find_shape(name);
-  if (!shape) return std::nullopt;
-  Lines lines;
-  for (const auto& line : shape->lines) {
-    auto& points = lines.emplace_back();
-    for (const catalog::Point& p : line) points.push_back({p[0], p[1], p[2]});
-  }
-  return lines;
-}
-
-std::string suggest_shape(const Builder& b, const std::string& name) {
-  std::vector<std::string> names;
-  for (const tags::NamedShape& shape : b.skeleton().shapes) names.push_back(shape.name);
-  for (std::string& built_in : b.catalogue().shapes()) names.push_back(std::move(built_in));
-  return suggest(name, names);
-}
-
 /// What the control on a mirrored joint shows of a point that the one on the other side shows: its
 /// mirror image. The same function leads back.
 Vec3 mirror_image(const Builder& b, const ControlSpec& spec, Vec3 point) {
@@ -59,20 +37,13 @@ Vec3 mirror_image(const Builder& b, const ControlSpec& spec, Vec3 point) {
   return point - left * (2 * math::dot(left, point));
 }
 
-/// Ten to the number of decimals that draw a shape of this size to a ten-thousandth of it.
-double decimals_for(double size) {
-  double decimals = 1;
-  while (decimals * size < 1e4 && decimals < 1e12) decimals *= 10;
-  return decimals;
-}
-
 /// Flattened polylines in control space: the number of points, then their coordinates, repeated.
 /// Rounded, because they are written out as text.
-std::vector<double> placed(const Builder& b, const Lines& lines, const ControlSpec& spec) {
+std::vector<double> placed(const Builder& b, const ShapeLines& lines, const ControlSpec& spec) {
   const math::Quat turn = math::between({0, 1, 0}, math::normalised(spec.facing, {0, 1, 0}));
   Vec3 offset = spec.offset;
   if (is_mirrored(b, spec.joint)) offset.x = -offset.x;  // expansion had turned it round
-  const double decimals = decimals_for(spec.size);
+  const double decimals = shape_decimals(spec.size);
   std::vector<double> out;
   for (const auto& line : lines) {
     out.push_back(static_cast<double>(line.size()));
@@ -175,18 +146,19 @@ ControlNodes make_control(Builder& b, const ControlSpec& spec) {
            suggest_shape(b, spec.shape));
     return {};
   }
+  const std::string suffix = spec.suffix.empty() ? spec.role : spec.suffix;
   ControlNodes made;
   made.zero = b.make({.kind = Kind::transform,
                       .role = "zero",
                       .joint = spec.joint,
                       .parent = {},
-                      .suffix = spec.role + "_zero"});
+                      .suffix = suffix + "_zero"});
   hang(b, made.zero, spec.space, spec.frame);
   made.control = b.make({.kind = Kind::control,
                          .role = spec.role,
                          .joint = spec.joint,
                          .parent = made.zero,
-                         .suffix = spec.role == "control" ? "" : spec.role});
+                         .suffix = suffix == "control" ? "" : suffix});
   namespace control = scene::control;
   b.set({made.control, control::kShape}, spec.shape);
   b.set({made.control, control::kPoints}, placed(b, *lines, spec));

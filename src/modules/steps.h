@@ -79,6 +79,7 @@ NodeId space_from(Builder& b, std::string_view parameter, NodeId otherwise);
 struct ControlSpec {
   NodeId joint;  ///< that it belongs to
   std::string role = "control";
+  std::string suffix;  ///< of its name; empty: its role, nothing for `control`
   math::Affine frame;  ///< rest placement, rig space
   NodeId space;        ///< what it hangs under or follows; invalid: nothing
   std::string shape = "circle";

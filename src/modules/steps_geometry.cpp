@@ -110,7 +110,7 @@ Vec3 own_offset(const Builder& b, NodeId joint, const std::string& orient, Vec3 
 }
 
 AxesFrom axes_from(const std::string& orient) {
-  if (orient == "bone") return AxesFrom::bone;
+  if (orient == "bone" || orient == "hinge") return AxesFrom::bone;
   return orient == "joint" ? AxesFrom::joint : AxesFrom::character;
 }
 

@@ -88,3 +88,22 @@ TEST_CASE("modules fk_chain: joints that are named from last to first are refuse
       {{"tail", "{command: fk_chain, with: {joints: [\"tail[0]\", \"tail[2]\", \"tail[1]\"]}}"}}));
   CHECK(test::codes(rig.diagnostics) == "RIG0460");
 }
+
+TEST_CASE("modules fk_chain: hinges bend the chain in its plane about one axis") {
+  const char* command =
+      "{command: fk_chain, with: {joints: [limb.upper, limb.lower, limb.end], orient: hinge}}";
+  for (const char* middle : {"[0.1, 0.5, 0.1]", "[-0.02, 0.52, 0.1]", "[0.07, 0.5, -0.05]"}) {
+    CAPTURE(middle);
+    const test::Rig rig(test::limb("[0, 1, 0]", middle, "[0.03, 0.1, 0.02]", {{"upper", command}}));
+    INFO(test::text(rig.diagnostics));
+    REQUIRE(rig.clean());
+    CHECK(test::rest_error(rig) < 1e-9);
+    test::Pose pose(rig);
+    const math::Vec3 start = pose.position("limb.upper"), end = pose.position("limb.end");
+    const math::Vec3 normal =
+        math::normalised(math::cross(pose.position("limb.lower") - start, end - start));
+    pose.set("limb.lower/fk_chain@rotate", math::Vec3{0, 0, 50});
+    CHECK(test::distance(pose.position("limb.end"), end) > 0.1);
+    CHECK(std::abs(math::dot(pose.position("limb.end") - start, normal)) < 1e-9);
+  }
+}

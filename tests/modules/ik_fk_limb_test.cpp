@@ -245,3 +245,44 @@ TEST_CASE("modules ik_fk_limb: a limb that hangs on no joint moves with the root
   CHECK(test::distance(pose.position("limb.end"), {1, 2.1, 3}) < 1e-9);
   CHECK(test::distance(pose.position("limb.upper"), {1, 3.9, 3}) < 1e-9);
 }
+
+TEST_CASE("modules ik_fk_limb: controls that have no part in the pose are hidden where asked") {
+  const auto shown = [](const test::Pose& pose) {
+    std::string text;
+    for (const char* control :
+         {"limb.upper/ik_fk_limb.fk", "limb.lower/ik_fk_limb.fk", "limb.end/ik_fk_limb.fk",
+          "limb/ik_fk_limb.ik", "limb/ik_fk_limb.pole", "limb/ik_fk_limb.settings"})
+      text += pose.number(std::string(control) + "@visible") == 1 ? "1" : "0";
+    return text;
+  };
+  const test::Rig rig(test::limb("[0, 1, 0]", "[0, 0.5, 0.1]", "[0, 0.1, 0]",
+                                 {{"upper", limb_command("limb", ", hide: true")}}));
+  REQUIRE(rig.clean());
+  test::Pose pose(rig);
+  CHECK(shown(pose) == "111001");
+  pose.set("limb/ik_fk_limb.settings@ik_fk", 0.5);
+  CHECK(shown(pose) == "111111");
+  pose.set("limb/ik_fk_limb.settings@ik_fk", 1.0);
+  CHECK(shown(pose) == "000111");
+}
+
+TEST_CASE("modules ik_fk_limb: the FK elbow bends the limb in its plane about one axis") {
+  // Planes that no axis of the character lies in.
+  for (const char* middle : {"[0.1, 0.5, 0.1]", "[-0.02, 0.52, 0.1]", "[0.07, 0.5, -0.05]"}) {
+    CAPTURE(middle);
+    const test::Rig rig(test::limb("[0, 1, 0]", middle, "[0.03, 0.1, 0.02]",
+                                   {{"upper", limb_command("limb", "")}}));
+    REQUIRE(rig.clean());
+    test::Pose pose(rig);
+    const auto place = [&](const char* joint) { return pose.position(joint); };
+    const math::Vec3 start = place("limb.upper");
+    const math::Vec3 normal =
+        math::normalised(math::cross(place("limb.lower") - start, place("limb.end") - start));
+    const math::Vec3 before = place("limb.end");
+    for (const double angle : {-40.0, 25.0, 80.0}) {
+      pose.set("limb.lower/ik_fk_limb.fk@rotate", math::Vec3{0, 0, angle});
+      CHECK(test::distance(place("limb.end"), before) > 0.1);
+      CHECK(std::abs(math::dot(place("limb.end") - start, normal)) < 1e-9);
+    }
+  }
+}

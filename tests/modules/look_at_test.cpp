@@ -94,3 +94,88 @@ TEST_CASE("modules look_at: under a parent the target follows it") {
   CHECK(test::distance(gaze(rig, pose, "eye_l.eye"),
                        math::rotate(math::from_euler_degrees({0, 30, 0}), Vec3{0, 0, 1})) < 1e-9);
 }
+
+TEST_CASE("modules look_at: parallel eyes, or eyes that cross at the target, and between") {
+  const test::Rig rig(kHead);
+  const auto apart = [&](double converge) {
+    test::Pose pose(rig);
+    pose.move_to(kTarget, {0, 1.66, 0.3}).set(kTarget + "@converge", converge);
+    return math::degrees(std::acos(
+        std::min(1.0, math::dot(gaze(rig, pose, "eye_l.eye"), gaze(rig, pose, "eye_r.eye")))));
+  };
+  CHECK(apart(0) < 1e-5);
+  CHECK(apart(1) == doctest::Approx(2 * math::degrees(std::atan2(0.03, 0.22))));
+  CHECK(apart(0.5) > 0.4 * apart(1));
+  CHECK(apart(0.5) < 0.6 * apart(1));
+}
+
+namespace {
+
+/// With lids of which the joints lie in the eyes' middles, and at their edges.
+std::string with_lids(const std::string& more = {}) {
+  std::string text = kHead;
+  text.replace(
+      text.find(", distance: 0.4"), 15,
+      ", upper_lids: [eye_r.upper, eye_l.upper], lower_lids: [eye_l.lower, eye_r.lower]" + more);
+  for (const bool left : {true, false}) {
+    const std::string side = left ? "l" : "r", x = left ? "0.03" : "-0.03";
+    for (const auto& [name, place] :
+         {std::pair{"upper_", "1.66, 0.08"}, std::pair{"lower_", "1.65, 0.09"}}) {
+      text += "  - {name: " + (name + side) + ", parent: head, at: [" + x + ", " + place +
+              "], local: eye_" + side + ", label: " + std::string(name, 5) + "}\n";
+    }
+  }
+  return text;
+}
+
+/// Degrees by which what a lid carries in front of the eye went up.
+double lifted(const test::Rig& rig, const test::Pose& pose, const std::string& lid,
+              const math::Affine& by = {}) {
+  const math::Affine motion =
+      math::inverse(by) * pose.world(lid) * math::inverse(rig.rest(lid)) * by;
+  const Vec3 eye{lid.starts_with("eye_l") ? 0.03 : -0.03, 1.66, 0.08};
+  CHECK(test::distance(motion * eye, eye) < 1e-9);  // it turns about the eye
+  const Vec3 moved = motion.linear * Vec3{0, 0, 1};
+  return math::degrees(std::asin(moved.y / math::length(moved)));
+}
+
+}  // namespace
+
+TEST_CASE("modules look_at: lids follow the eyes, the upper ones more, on every model") {
+  for (const test::Model& model : test::models()) {
+    CAPTURE(model.name);
+    const test::Rig rig(with_lids(), model.change);
+    INFO(test::text(rig.diagnostics));
+    REQUIRE(rig.clean());
+    CHECK(test::rest_error(rig) < 1e-9);
+    test::Pose pose(rig);
+    pose.move_to(kTarget, model.by * Vec3{0, 1.36, 0.58});
+    const double eye = -math::degrees(std::atan2(0.3, 0.5));
+    for (const std::string side : {"eye_l", "eye_r"}) {
+      CHECK(lifted(rig, pose, side + ".upper", model.by) == doctest::Approx(0.8 * eye));
+      CHECK(lifted(rig, pose, side + ".lower", model.by) == doctest::Approx(0.35 * eye));
+    }
+    pose.set(kTarget + "@lids", 0.0);
+    CHECK(std::abs(lifted(rig, pose, "eye_l.upper", model.by)) < 1e-9);
+  }
+}
+
+TEST_CASE("modules look_at: a lid's own control closes it on top of that") {
+  const test::Rig rig(with_lids(", parent: ./control"));
+  test::Pose pose(rig);
+  pose.rotate("eye_l.upper/look_at", {40, 0, 0});
+  CHECK(lifted(rig, pose, "eye_l.upper") == doctest::Approx(-40));
+  CHECK(std::abs(lifted(rig, pose, "eye_r.upper")) < 1e-9);
+  pose.translate(kTarget, {0, 0.2, 0});
+  CHECK(lifted(rig, pose, "eye_l.upper") > -40 + 10);
+}
+
+TEST_CASE("modules look_at: each lid goes with the eye that it lies nearest to") {
+  const test::Rig rig(with_lids());
+  test::Pose pose(rig);
+  pose.translate("eye_l.eye/look_at.aim", {0, -0.1, 0});
+  for (const std::string lid : {"upper", "lower"}) {
+    CHECK(lifted(rig, pose, "eye_l." + lid) < -3);
+    CHECK(std::abs(lifted(rig, pose, "eye_r." + lid)) < 1e-9);
+  }
+}

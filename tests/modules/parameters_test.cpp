@@ -113,6 +113,18 @@ TEST_CASE("modules parameters: curves are flattened with their interpolations") 
         std::vector<double>{0, 1, 1, 0.5, 2, 0, 0.7, 2.5, 2, 1, 3, 3});
 }
 
+TEST_CASE("modules parameters: lists of texts, tables by rows") {
+  const Literal names = list({Literal::of("low"), Literal::of("high")});
+  CHECK(Binding(ParameterType::texts).with(names).parameters().texts("p") ==
+        std::vector<std::string>{"low", "high"});
+  CHECK(Binding(ParameterType::texts).with(Literal::of("low")).parameters().texts("p") ==
+        std::vector<std::string>{"low"});
+  const Literal rows = list(
+      {list({Literal::of(1.0), Literal::of(2.0)}), list({Literal::of(3.0), Literal::of(4.0)})});
+  CHECK(Binding(ParameterType::table).with(rows).parameters().table("p") ==
+        std::vector<std::vector<double>>{{1, 2}, {3, 4}});
+}
+
 TEST_CASE("modules parameters: selectors become nodes and plugs") {
   Binding node(ParameterType::node);
   const auto one = node.with(Literal::of("./control")).parameters();

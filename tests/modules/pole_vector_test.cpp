@@ -76,6 +76,18 @@ TEST_CASE("modules pole_vector: nothing moves at rest, wherever the pole is, on 
   }
 }
 
+TEST_CASE("modules pole_vector: a nearly straight limb bent to the wrong side stays, too") {
+  for (const char* middle : {"[0.016, 0.51, 0.005]", "[-0.004, 0.51, -0.007]"}) {
+    std::string text = limb("[0.7, 0.5, 0.2]", "", ", bend: forward");
+    const std::string bent = "[0, 0.51, 0.1]";
+    text.replace(text.find(bent), bent.size(), middle);
+    const test::Rig rig(text);
+    INFO(test::text(rig.diagnostics));
+    REQUIRE(rig.clean());
+    CHECK(test::rest_error(rig) < 1e-9);
+  }
+}
+
 TEST_CASE("modules pole_vector: the bend turns with the pole, the end stays where it is") {
   for (const test::Model& model : test::models()) {
     CAPTURE(model.name);

@@ -12,7 +12,7 @@ namespace {
 
 /// One row of scene::mesh::kParts, in rig space.
 struct Piece {
-  bool box = false;
+  int style = 0;
   Vec3 head, tail, side;
   double width = 0, depth = 0;
 };
@@ -32,8 +32,8 @@ std::vector<Piece> pieces(const test::Rig& rig, const std::string& selector) {
       return Vec3{parts[at + i], parts[at + i + 1], parts[at + i + 2]};
     };
     const double size = math::length(joint.linear.x);
-    out.push_back({parts[at] != 0, joint * vector(1), joint * vector(4), joint.linear * vector(7),
-                   parts[at + 10] * size, parts[at + 11] * size});
+    out.push_back({static_cast<int>(parts[at]), joint * vector(1), joint * vector(4),
+                   joint.linear * vector(7), parts[at + 10] * size, parts[at + 11] * size});
   }
   REQUIRE(out.size() * kRow == parts.size());
   return out;
@@ -68,7 +68,7 @@ TEST_CASE("modules proxy_mesh: pieces lie along the bones, at the same places on
     REQUIRE(seen.size() == expected.size());
     const double height = rig.skeleton.character.height;
     for (std::size_t i = 0; i < seen.size(); ++i) {
-      CHECK(seen[i].box == expected[i].box);
+      CHECK(seen[i].style == expected[i].style);
       CHECK(test::distance(seen[i].head, model.by * expected[i].head) < 1e-9 * height);
       CHECK(test::distance(seen[i].tail, model.by * expected[i].tail) < 1e-9 * height);
       const double scale = height / plain.skeleton.character.height;
@@ -81,14 +81,15 @@ TEST_CASE("modules proxy_mesh: pieces lie along the bones, at the same places on
 }
 
 TEST_CASE("modules proxy_mesh: style says the form") {
-  const auto boxes = [](const std::string& style) {
+  const auto styles = [](const std::string& style) {
     const test::Rig rig(
         test::tail(3, {{"base", "{command: proxy_mesh, with: {style: " + style + "}}"}}));
     std::string out;
-    for (const Piece& piece : pieces(rig, "base/proxy_mesh")) out += piece.box ? 'b' : 'c';
+    for (const Piece& piece : pieces(rig, "base/proxy_mesh")) out += "cby"[piece.style];
     return out;
   };
-  CHECK(boxes("box") == "bbbb");
-  CHECK(boxes("capsule") == "cccc");
-  CHECK(boxes("auto") == "cccb");
+  CHECK(styles("box") == "bbbb");
+  CHECK(styles("capsule") == "cccc");
+  CHECK(styles("cylinder") == "yyyy");
+  CHECK(styles("auto") == "cccb");
 }

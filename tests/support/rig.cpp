@@ -28,7 +28,7 @@ std::optional<tags::TaggedSkeleton> skeleton_from(const std::string& yaml,
   return expanded ? templates::place(*expanded, diagnostics) : std::nullopt;
 }
 
-Rig::Rig(const std::string& yaml, const Change& change, bool run) {
+Rig::Rig(const std::string& yaml, const Change& change, bool run, tags::Geometry geometry) {
   auto placed = skeleton_from(yaml, diagnostics);
   if (!placed) return;
   skeleton = std::move(*placed);
@@ -36,7 +36,8 @@ Rig::Rig(const std::string& yaml, const Change& change, bool run) {
   auto listed = processor::list(skeleton, catalogue(), diagnostics);
   if (!listed) return;
   commands = std::move(*listed);
-  processor_ = std::make_unique<processor::Processor>(skeleton, commands, catalogue());
+  processor_ = std::make_unique<processor::Processor>(skeleton, commands, catalogue(), 0,
+                                                      std::move(geometry));
   if (run) processor_->run(diagnostics);
 }
 

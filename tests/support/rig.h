@@ -29,7 +29,9 @@ class Rig {
   using Change = std::function<void(tags::TaggedSkeleton&)>;
 
   /// Reads and lists; runs everything unless `run` is false. Only the text's errors stop it.
-  explicit Rig(const std::string& yaml, const Change& change = {}, bool run = true);
+  /// `geometry`: what commands read of a model.
+  explicit Rig(const std::string& yaml, const Change& change = {}, bool run = true,
+               tags::Geometry geometry = {});
   Rig(const Rig&) = delete;
 
   bool listed() const { return processor_ != nullptr; }

@@ -7,7 +7,7 @@
 
 #include "modules/codes.h"
 #include "modules/registry.h"
-#include "modules/steps.h"
+#include "modules/wiring.h"
 
 namespace rigc::modules {
 namespace {
@@ -64,6 +64,12 @@ bool check_no_pole(Builder& b, const Solver& solver) {
                      traversal::describe(b.scene(), source->node)),
          "move or constrain that, or make the chain with an ik_handle that has no `pole`");
   return false;
+}
+
+/// The turn is free, or that of a limb that swivels as it bends.
+bool turns_alone(const Builder& b, const Solver& solver) {
+  const auto source = b.scene().source(solver.twist);
+  return source && b.scene()[source->node].command == b.scene()[solver.node].command;
 }
 
 /// A chain at rest as its solver sees it.
@@ -125,9 +131,17 @@ void pole_vector(Builder& b) {
     return;
   }
   if (b.with().flag("maintain") && bend.toward != Vec3{}) {
-    if (!b.check_free(solver->twist, "ik")) return;
-    b.set(solver->twist,
-          b.scene().number(solver->twist) + angle_between(line, to_pole, bend.toward));
+    const double turn = angle_between(line, to_pole, bend.toward);
+    if (turns_alone(b, *solver)) {
+      const Computed turned = compute(b, b.joint(), "turn",
+                                      {now(b, "own", solver->twist), {"more", scene::Value(turn)}},
+                                      "out turn = own + more;");
+      b.reconnect(turned["turn"], solver->twist);
+    } else if (b.check_free(solver->twist, "ik")) {
+      b.set(solver->twist, b.scene().number(solver->twist) + turn);
+    } else {
+      return;
+    }
   }
   if (solver->chain) b.set({solver->node, ik_chain::kHasPole}, 1.0);
   b.set(solver->pole, rest(b, pole));

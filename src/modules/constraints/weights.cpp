@@ -31,9 +31,9 @@ std::vector<double> constraint_weights(Builder& b, std::size_t targets) {
   return weights;
 }
 
-void connect_weights(Builder& b, NodeId constraint, std::uint16_t attribute,
-                     const std::vector<double>& weights) {
-  if (!b.with().has("weights_on")) return;
+std::vector<Plug> weight_attributes(Builder& b, const std::vector<double>& weights) {
+  std::vector<Plug> plugs;
+  if (!b.with().has("weights_on")) return plugs;
   const NodeId holder = b.with().node("weights_on");
   const std::string& base = b.with().text("weights_name");
   for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -42,11 +42,18 @@ void connect_weights(Builder& b, NodeId constraint, std::uint16_t attribute,
       b.fail(codes::kAttributeExists, "weights_name",
              fmt::format("{} has an attribute \"{}\" already",
                          traversal::describe(b.scene(), holder), name));
-      return;
+      return plugs;
     }
-    const Plug plug = add_number(b, holder, {.name = name, .value = weights[i], .min = 0});
-    b.connect(plug, {constraint, attribute, static_cast<std::int32_t>(i)});
+    plugs.push_back(add_number(b, holder, {.name = name, .value = weights[i], .min = 0}));
   }
+  return plugs;
+}
+
+void connect_weights(Builder& b, NodeId constraint, std::uint16_t attribute,
+                     const std::vector<double>& weights) {
+  const std::vector<Plug> plugs = weight_attributes(b, weights);
+  for (std::size_t i = 0; i < plugs.size() && !b.failed(); ++i)
+    b.connect(plugs[i], {constraint, attribute, static_cast<std::int32_t>(i)});
 }
 
 NodeId driven_node(Builder& b) {

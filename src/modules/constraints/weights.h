@@ -13,7 +13,11 @@ std::vector<Target> constraint_targets(Builder& b);
 /// Weights as written, all 1 where they were left out; fails where they do not fit the targets.
 std::vector<double> constraint_weights(Builder& b, std::size_t targets);
 
-/// One keyable attribute for each weight on the node of `weights_on:`, connected to the weights
+/// One keyable attribute for each weight on the node of `weights_on:`; none where that was left
+/// out.
+std::vector<Plug> weight_attributes(Builder& b, const std::vector<double>& weights);
+
+/// The same, connected to the weights
 /// array of `constraint`.
 void connect_weights(Builder& b, NodeId constraint, std::uint16_t weights_attribute,
                      const std::vector<double>& weights);

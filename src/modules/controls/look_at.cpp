@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// look_at: eyes turn toward a common target, each with an aim control of its own.
+// look_at: eyes turn toward a common target, each with an aim control of its own; lids go along.
 // Test: tests/modules/look_at_test.cpp
-#include "modules/codes.h"
+#include <algorithm>
+
+#include "modules/layers.h"
+#include "modules/made.h"
 #include "modules/registry.h"
-#include "modules/wiring.h"
 
 namespace rigc::modules {
 namespace {
@@ -38,6 +40,81 @@ void aim_eye(Builder& b, NodeId eye, NodeId aim, NodeId head) {
   b.connect({node, attribute::kRotation}, {eye, scene::transform::kRotation});
 }
 
+/// Where `converge` of the target is 1 the aim lies in the target itself: the eyes cross there.
+void converge(Builder& b, const Plug& amount, NodeId target, const ControlNodes& aim) {
+  const math::Vec3 to_target = math::inverse(rest(b, aim.zero)) * position(b, target);
+  const Computed moved = compute(b, owner(b, aim.control), "converge",
+                                 {{"target", scene::Value(to_target)}, {"amount", amount}},
+                                 "out move = target * amount;");
+  b.connect(moved["move"], {make_layer(b, aim.control, "converge"), scene::transform::kTranslate});
+}
+
+/// How much of the eye's turn up or down the lids take.
+constexpr double kUpperLid = 0.8, kLowerLid = 0.35;
+
+struct Eye {
+  NodeId joint;
+  NodeId head;  ///< what it moves with; invalid: nothing
+};
+
+/// Lets a lid turn about the eye's middle by a part of what the eye does: sideways a third of what
+/// it does up and down. Its control, which bulges up or down, adds to it.
+void follow_eye(Builder& b, NodeId lid, const Eye& eye, const Plug& amount, bool upper) {
+  const math::Mat3 axes = character_axes(b);
+  ControlSpec spec;
+  spec.joint = lid;
+  spec.role = "fk";
+  spec.frame = {axes, position(b, eye.joint)};
+  spec.space = eye.head;
+  spec.shape = b.with().text("lid_shape");
+  spec.shape_parameter = "lid_shape";
+  spec.size = b.with().number("eye_size");
+  spec.color = side_color(b, lid, "eye_color");
+  spec.facing = {0, 0, upper ? -1.0 : 1.0};
+  spec.offset =
+      math::transposed(axes) * (position(b, lid) - spec.frame.origin) + math::Vec3{0, 0, spec.size};
+  if (is_mirrored(b, lid)) spec.offset.x = -spec.offset.x;
+  spec.translate = false;
+  const ControlNodes made = make_control(b, spec);
+  if (b.failed()) return;
+  spec.translate = true;  // the joint goes round the eye, wherever it lies in the lid
+  drive(b, spec, made.control);
+  const math::Quat in_zero =
+      math::quaternion(math::transposed(axes) * math::orthonormal(rest(b, eye.joint).linear));
+  const Computed turned = compute(
+      b, lid, "lid",
+      {{"zero", made.zero},
+       {"eye", eye.joint},
+       {"eye_rest", scene::Value(in_zero)},
+       {"amount", amount},
+       {"part", scene::Value(upper ? kUpperLid : kLowerLid)}},
+      "gaze = inverse(rotation(zero)) * rotation(eye) * inverse(eye_rest) * vector(0, 0, 1);"
+      "up = asin(clamp(gaze.y, -1, 1)); side = asin(clamp(gaze.x, -1, 1)); by = amount * part;"
+      "out turn = axis_angle(vector(0, 1, 0), side * by / 3)"
+      " * axis_angle(vector(1, 0, 0), -up * by);");
+  b.connect(turned["turn"], {make_layer(b, made.control, "lid"), scene::transform::kRotation});
+}
+
+/// The eye that a lid lies nearest to.
+const Eye& eye_of(const Builder& b, const std::vector<Eye>& eyes, NodeId lid) {
+  return *std::min_element(eyes.begin(), eyes.end(), [&](const Eye& one, const Eye& other) {
+    return math::length(position(b, one.joint) - position(b, lid)) <
+           math::length(position(b, other.joint) - position(b, lid));
+  });
+}
+
+void make_lids(Builder& b, const std::vector<Eye>& eyes, NodeId target) {
+  const Parameters& with = b.with();
+  if (with.nodes("upper_lids").empty() && with.nodes("lower_lids").empty()) return;
+  const Plug amount =
+      add_number(b, target, {.name = "lids", .value = with.number("lids"), .min = 0, .max = 1});
+  for (const char* lids : {"upper_lids", "lower_lids"})
+    for (const NodeId lid : with.nodes(lids)) {
+      follow_eye(b, lid, eye_of(b, eyes, lid), amount, lids[0] == 'u');
+      if (b.failed()) return;
+    }
+}
+
 }  // namespace
 
 void look_at(Builder& b) {
@@ -61,6 +138,10 @@ void look_at(Builder& b) {
   if (b.failed()) return;
   const ControlNodes common = make_control(b, spec);
   if (b.failed()) return;
+  const Plug crossing =
+      add_number(b, common.control,
+                 {.name = "converge", .value = with.number("converge"), .min = 0, .max = 1});
+  std::vector<Eye> made;
   for (NodeId eye : eyes) {
     spec.joint = eye;
     spec.role = "aim";
@@ -76,8 +157,11 @@ void look_at(Builder& b) {
     const NodeId space = space_of(b, eye);
     const bool carried = carried_by(b, eye, space);
     if (!carried && space.valid()) carry(b, eye, space);
-    aim_eye(b, eye, own.control, carried ? b.scene()[eye].parent : space);
+    converge(b, crossing, common.control, own);
+    made.push_back({eye, carried ? b.scene()[eye].parent : space});
+    aim_eye(b, eye, own.control, made.back().head);
   }
+  make_lids(b, made, common.control);
 }
 
 }  // namespace rigc::modules

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// proxy_mesh: capsules and boxes around the bones, rigidly bound.
+// proxy_mesh: capsules, boxes and cylinders around the bones, rigidly bound.
 // Test: tests/modules/proxy_mesh_test.cpp
 #include "modules/registry.h"
 #include "modules/steps.h"
@@ -21,7 +21,7 @@ std::size_t skeleton_children(const Builder& b, NodeId joint) {
 
 /// A piece at rest, rig space. `side` is the direction of its width, at right angles to it.
 struct Piece {
-  bool box = false;
+  double style = 0;  ///< as in scene::mesh::kParts
   math::Vec3 head, tail, side;
   double width = 0, depth = 0;
 };
@@ -38,7 +38,8 @@ Piece measure(const Builder& b, NodeId joint) {
   const double length =
       with.has("length") ? with.number("length") : bone * (children == 0 ? kLeafLength : 1.0);
   Piece piece;
-  piece.box = style == "box" || (style == "auto" && children != 1);
+  const bool box = style == "box" || (style == "auto" && children != 1);
+  piece.style = style == "cylinder" ? 2 : box ? 1 : 0;
   piece.head = position(b, joint);
   piece.tail = piece.head + direction * length;
   const bool sideways = std::abs(math::dot(direction, b.character().left)) > kSideways;
@@ -57,7 +58,7 @@ void add_part(const Builder& b, NodeId joint, std::vector<double>& parts) {
   const math::Vec3 side = to_joint.linear * piece.side;
   const double unit = math::length(side);  // joint-space length of a rig unit
   const math::Vec3 color = b.with().vec3("color");
-  parts.push_back(piece.box ? 1.0 : 0.0);
+  parts.push_back(piece.style);
   for (const math::Vec3& v :
        {to_joint * piece.head, to_joint * piece.tail, math::normalised(side)}) {
     parts.insert(parts.end(), {v.x, v.y, v.z});

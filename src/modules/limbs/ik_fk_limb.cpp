@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // ik_fk_limb: an FK chain, an IK control with a pole, and a switch that blends them.
 // Test: tests/modules/ik_fk_limb_test.cpp
+#include <algorithm>
 #include <array>
 
 #include "modules/codes.h"
+#include "modules/limbs/limb_match.h"
 #include "modules/limbs/two_bone.h"
 #include "modules/registry.h"
 #include "modules/wiring.h"
@@ -19,7 +21,7 @@ struct Limb {
   std::vector<NodeId> joints;  ///< three
   NodeId space;                ///< what the FK chain hangs on
   std::array<NodeId, 3> fk;
-  NodeId ik, pole, settings, solver;
+  NodeId ik, goal, pole, settings, solver;
   Plug ik_weight, fk_weight;
 };
 
@@ -42,7 +44,8 @@ void make_fk(Builder& b, Limb& limb) {
     const NodeId joint = limb.joints[i];
     ControlSpec spec = look(b, joint, "fk");
     const math::Vec3 direction = chain_direction(b, limb.joints, i);
-    spec.frame = {bone_frame(b, joint, direction), position(b, joint)};
+    spec.frame = {i == 1 ? hinge_frame(b, limb.bones, direction) : bone_frame(b, joint, direction),
+                  position(b, joint)};
     spec.axes = AxesFrom::bone;
     face(b, spec, "bone", direction);
     spec.space = space;
@@ -63,6 +66,11 @@ void make_ik(Builder& b, Limb& limb) {
   spec.space = space;
   limb.ik = make_control(b, spec).control;
   if (b.failed()) return;
+  limb.goal = b.make({.kind = scene::Kind::transform,
+                      .role = "driver",
+                      .joint = limb.joints[2],
+                      .parent = limb.ik,
+                      .suffix = "goal"});
   spec = look(b, limb.joints[1], "pole");
   spec.frame = {character_axes(b),
                 pole_position(b, limb.bones, with.number("pole_distance") * limb.bones.length)};
@@ -95,7 +103,7 @@ void add_twist(Builder& b, const Limb& limb, std::size_t i) {
                          {.name = i == 0 ? "upper_twist" : "lower_twist",
                           .flavour = scene::UserAttribute::Flavour::angle});
   if (is_mirrored(b, limb.joints[i])) plug = formula(b, limb.joints[i], "twist", "-$0", {plug});
-  b.connect(plug, {limb.solver, i == 0 ? scene::ik2::kStartTwist : scene::ik2::kMiddleTwist});
+  add_turn(b, {limb.solver, i == 0 ? scene::ik2::kStartTwist : scene::ik2::kMiddleTwist}, plug);
 }
 
 /// Each joint turns with its FK control and with what IK says, by weight.
@@ -104,7 +112,7 @@ void blend(Builder& b, const Limb& limb) {
   const double ik_fk = b.with().number("ik_fk");
   const Target solved[3] = {{{limb.solver, scene::ik2::kStartWorld}, rest(b, limb.joints[0])},
                             {{limb.solver, scene::ik2::kMiddleWorld}, rest(b, limb.joints[1])},
-                            target(b, limb.ik)};
+                            target(b, limb.goal)};
   for (std::size_t i = 0; i < 3; ++i) {
     const NodeId joint = limb.joints[i];
     const NodeId node = make_constraint(b, scene::Kind::orient_constraint, joint,
@@ -141,6 +149,28 @@ void carry_joints(Builder& b, const Limb& limb) {
   }
 }
 
+/// Controls that have no part in the pose are not shown.
+void hide_unused(Builder& b, const Limb& limb) {
+  const Plug fk = formula(b, limb.joints[2], "fk_shown", "$0 < 1", {limb.ik_weight});
+  const Plug ik = formula(b, limb.joints[2], "ik_shown", "$0 > 0", {limb.ik_weight});
+  for (const NodeId control : limb.fk) b.connect(fk, {control, transform::kVisible});
+  for (const NodeId control : {limb.ik, limb.pole}) b.connect(ik, {control, transform::kVisible});
+}
+
+void describe_match(Builder& b, const Limb& limb) {
+  LimbParts parts;
+  std::copy(limb.joints.begin(), limb.joints.end(), parts.joints.begin());
+  parts.fk = limb.fk;
+  parts.ik = limb.ik;
+  parts.pole = limb.pole;
+  parts.settings = limb.settings;
+  parts.solver = limb.solver;
+  parts.ik_weight = limb.ik_weight;
+  make_match(b, parts,
+             {{"upper_twist", *b.scene().find_plug(limb.ik, "upper_twist")},
+              {"lower_twist", *b.scene().find_plug(limb.ik, "lower_twist")}});
+}
+
 }  // namespace
 
 void ik_fk_limb(Builder& b) {
@@ -156,10 +186,12 @@ void ik_fk_limb(Builder& b) {
   if (!b.failed()) make_ik(b, limb);
   if (!b.failed()) make_settings(b, limb);
   if (b.failed()) return;
-  limb.solver = make_two_bone(b, limb.bones, limb.ik, limb.pole, 0);
+  limb.solver = make_two_bone(b, limb.bones, limb.goal, limb.pole, 0);
   for (const std::size_t i : {0u, 1u}) add_twist(b, limb, i);
   blend(b, limb);
   carry_joints(b, limb);
+  if (with.flag("hide")) hide_unused(b, limb);
+  describe_match(b, limb);
 }
 
 }  // namespace rigc::modules

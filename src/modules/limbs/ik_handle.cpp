@@ -3,9 +3,8 @@
 // Test: tests/modules/ik_test.cpp
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "modules/codes.h"
+#include "modules/limbs/chain_ik.h"
 #include "modules/limbs/two_bone.h"
 #include "modules/registry.h"
 #include "modules/wiring.h"
@@ -50,52 +49,18 @@ void build_two_bone(Builder& b, const std::vector<NodeId>& path, NodeId handle) 
   }
 }
 
-/// Where each joint is in the space of the one above it, and how it rests there. The solver knows
-/// no scale: places below a scaled joint of the chain are given at the size that they have, as they
-/// rest; the others are live.
-void connect_joints(Builder& b, const std::vector<NodeId>& chain, NodeId solver) {
-  namespace ik = scene::ik_chain;
-  double size = 1;  // of what lies below the joints so far, seen from the chain's base
-  bool scaled = false;
-  for (std::size_t i = 0; i < chain.size(); ++i) {
-    const auto element = static_cast<std::int32_t>(i);
-    const math::Trs local = b.scene().local(chain[i]);
-    b.set({solver, ik::kTranslates, element}, local.translation * size);
-    if (!scaled) b.connect({chain[i], transform::kTranslate}, {solver, ik::kTranslates, element});
-    b.set({solver, ik::kRests, element}, local.rotation);
-    if (i + 1 == chain.size()) break;
-    b.connect({solver, ik::kRotations, element}, {chain[i], transform::kRotation});
-    scaled = scaled || local.scale != math::Vec3{1, 1, 1};
-    size *= math::cbrt(std::abs(local.scale.x * local.scale.y * local.scale.z));
-  }
-}
-
 /// Every joint on the way takes part, roll joints too: this is the solver for tails and ropes, of
 /// which models have more joints than templates name.
 void build_chain(Builder& b, const std::vector<NodeId>& chain, NodeId handle) {
-  namespace ik = scene::ik_chain;
   if (chain.size() < 2) {
     b.fail(codes::kTooFewJoints, "end", "an IK chain takes at least two joints");
     return;
   }
-  const NodeId solver = b.make({.kind = scene::Kind::ik_chain,
-                                .role = "driver",
-                                .joint = chain[0],
-                                .parent = {},
-                                .suffix = "ik"});
-  b.connect({chain.front(), transform::kParent}, {solver, ik::kBase});
-  follow_world(b, {solver, ik::kGoal}, handle);
-  b.set({solver, ik::kGoalOffset}, math::inverse(rest(b, handle)) * position(b, chain.back()));
-  b.set({solver, ik::kTwist}, b.with().number("twist"));
-  b.set({solver, ik::kIterations}, b.with().number("iterations"));
   NodeId pole = space_from(b, "pole", {});
   if (b.failed()) return;
   if (!pole.valid()) pole = straight_chain_pole(b, chain, b.with().text("bend"));
-  if (pole.valid()) {
-    b.set({solver, ik::kHasPole}, 1.0);
-    follow_world(b, {solver, ik::kPole}, pole);
-  }
-  connect_joints(b, chain, solver);
+  make_chain_ik(b, {chain, chain.front(), handle, pole, b.with().number("twist"),
+                    b.with().number("iterations")});
 }
 
 }  // namespace

@@ -21,9 +21,25 @@ constexpr double kExactlyStraight = 3e-6;
 /// bend, above which it keeps its own plane.
 constexpr double kAgrees = 0.5;
 
+/// How far a limb is bent, in degrees, while it swivels from where it rests to where it shall bend
+/// to. It rests bent by less than 5.
+constexpr double kSwivels = 6, kSwivelled = 16;
+
 /// Deviations from the line, summed over the joints and in lengths of the chain, below which the
 /// chain solver takes it for straight; half of eval's, which sees rounded places.
 constexpr double kStraightChain = 5e-7;
+
+/// The swivel of a limb whose goal is so far away, in the space of its base; and what turns the
+/// bones back about themselves, so that none of them spins.
+constexpr const char* kSwivel = R"(
+  away = length(inverse(base) * (goal * at) - start);
+  upper = length(multiply(middle, start_scale));
+  lower = length(multiply(end, multiply(start_scale, middle_scale)));
+  bent = acos(clamp((away * away - upper * upper - lower * lower) / (2 * upper * lower), -1, 1));
+  swivels = swivel * (1 - smoothstep(swivels_from, swivelled_at, bent));
+  out turn = twist + swivels;
+  out back = 0 - swivels;
+)";
 
 Vec3 perpendicular_part(Vec3 v, Vec3 unit) { return v - unit * math::dot(v, unit); }
 
@@ -58,12 +74,24 @@ TwoBone measure_two_bone(Builder& b, NodeId start, NodeId middle, NodeId end,
   const Vec3 deviation = perpendicular_part(p1 - p0, direction);
   const double sine = math::length(math::cross(p1 - p0, p2 - p1)) / (upper * lower);
   const Vec3 wanted = wanted_bend(b, bend, direction);
-  const bool bent = sine >= kBent;
   const double out = math::length(deviation);
-  const bool agrees =
-      out > kExactlyStraight * limb.length && math::dot(deviation, wanted) > kAgrees * out;
-  limb.bend = bent || agrees ? math::normalised(deviation) : wanted;
+  const bool has_side = out > kExactlyStraight * limb.length;
+  const bool folded = has_side && math::dot(p1 - p0, p2 - p1) < 0;
+  const bool agrees = has_side && math::dot(deviation, wanted) > kAgrees * out;
+  const bool keeps = sine >= kBent || folded || agrees;
+  limb.bend = keeps ? math::normalised(deviation) : wanted;
+  if (!keeps && has_side) {
+    const double across = math::dot(math::cross(wanted, deviation), direction);
+    limb.swivel = math::degrees(math::atan2(across, math::dot(wanted, deviation)));
+  }
   return limb;
+}
+
+math::Mat3 hinge_frame(const Builder& b, const TwoBone& limb, Vec3 direction) {
+  const math::Mat3 usual = bone_frame(b, limb.middle, direction);
+  const Vec3 span = position(b, limb.end) - position(b, limb.start);
+  const Vec3 inward = math::cross(math::cross(span, limb.bend), usual.x);
+  return math::frame(usual.x, math::dot(usual.y, inward) < 0 ? -inward : inward);
 }
 
 Vec3 pole_position(const Builder& b, const TwoBone& limb, double distance) {
@@ -72,7 +100,7 @@ Vec3 pole_position(const Builder& b, const TwoBone& limb, double distance) {
   const Vec3 direction = math::normalised(p2 - p0);
   const Vec3 p1 = position(b, limb.middle);
   const Vec3 foot = p0 + direction * math::dot(p1 - p0, direction);
-  const double out = math::dot(p1 - foot, limb.bend);
+  const double out = limb.swivel == 0 ? math::dot(p1 - foot, limb.bend) : math::length(p1 - foot);
   return foot + limb.bend * (out + distance);
 }
 
@@ -107,7 +135,41 @@ void connect_bones(Builder& b, const TwoBone& limb, NodeId node) {
   }
 }
 
+/// Lets the limb swivel to where it shall bend to as its goal comes nearer.
+void swivel(Builder& b, const TwoBone& limb, NodeId node, double twist) {
+  namespace ik2 = scene::ik2;
+  const auto of = [&](std::string name, std::uint16_t attribute) {
+    return now(b, std::move(name), {node, attribute});
+  };
+  const std::vector<Given> given{of("base", ik2::kBase),
+                                 of("start", ik2::kStart),
+                                 of("goal", ik2::kGoal),
+                                 {"at", b.scene().value({node, ik2::kGoalOffset})},
+                                 of("middle", ik2::kMiddle),
+                                 of("end", ik2::kEnd),
+                                 of("start_scale", ik2::kStartScale),
+                                 of("middle_scale", ik2::kMiddleScale),
+                                 {"swivel", scene::Value(limb.swivel)},
+                                 {"swivels_from", scene::Value(kSwivels)},
+                                 {"swivelled_at", scene::Value(kSwivelled)},
+                                 {"twist", scene::Value(twist)}};
+  const Computed turned = compute(b, limb.start, "swivel", given, kSwivel);
+  b.connect(turned["turn"], {node, ik2::kTwist});
+  b.connect(turned["back"], {node, ik2::kStartTwist});
+  b.connect(turned["back"], {node, ik2::kMiddleTwist});
+}
+
 }  // namespace
+
+void add_turn(Builder& b, const Plug& turn, const Plug& degrees) {
+  const auto before = b.scene().source(turn);
+  if (!before) {
+    b.connect(degrees, turn);
+    return;
+  }
+  const NodeId start = b.index().joint(b.scene()[turn.node].identity.owner);
+  b.reconnect(formula(b, start, "turn", "$0 + $1", {*before, degrees}), turn);
+}
 
 NodeId straight_chain_pole(Builder& b, const std::vector<NodeId>& chain, const std::string& bend) {
   const Vec3 first = position(b, chain.front());
@@ -141,13 +203,19 @@ NodeId make_two_bone(Builder& b, const TwoBone& limb, NodeId goal, NodeId pole, 
   follow_world(b, {node, ik2::kGoal}, goal);
   b.set({node, ik2::kGoalOffset}, math::inverse(rest(b, goal)) * p2);
   b.set({node, ik2::kTwist}, twist);
+  if (limb.swivel != 0) swivel(b, limb, node, twist);
 
-  // Bone frames at rest: x along the bone, z along the bend normal.
+  // Bone frames at rest: x along the bone, z along the bend normal, which is turned back about the
+  // bone where the limb swivels.
+  const math::Quat swivelled =
+      math::axis_angle(math::normalised(p2 - p0), math::radians(limb.swivel));
   const Vec3 ends[2][2] = {{p0, p1}, {p1, p2}};
   const NodeId joints[2] = {limb.start, limb.middle};
   for (int i = 0; i < 2; ++i) {
     const Vec3 x = math::normalised(ends[i][1] - ends[i][0]);
-    const math::Mat3 bone = math::frame(x, math::cross(normal, x));
+    const math::Quat back = math::axis_angle(x, math::radians(-limb.swivel));
+    const Vec3 z = math::rotate(back * swivelled, normal);
+    const math::Mat3 bone = math::frame(x, math::cross(z, x));
     const math::Mat3 axes = math::orthonormal(rest(b, joints[i]).linear);
     b.set({node, ik2::kOffsets, i}, math::quaternion(math::transposed(bone) * axes));
   }

@@ -15,14 +15,27 @@ struct TwoBone {
   math::Vec3 bend;    ///< unit, rig space, at right angles to start -> end: where the middle joint
                       ///< bends out to
   double length = 0;  ///< upper and lower bone, rig units
+  /// Degrees about start -> end from `bend` to the side on which the middle joint rests: not 0
+  /// where a nearly straight limb rests bent to another side than it shall bend to.
+  double swivel = 0;
 };
 
 /// Measures the bend at rest. `bend` is the parameter: auto, forward, backward, left, right, up,
 /// down. A limb bent by 5 degrees or more keeps its plane; a straighter one bends where the
 /// parameter says (auto: backward for limbs that reach sideways, else forward), in its own plane
-/// where that agrees. Fails on bones of no length.
+/// where that agrees; else it swivels there from where it rests while it bends. Fails on bones of
+/// no length.
 TwoBone measure_two_bone(Builder& b, NodeId start, NodeId middle, NodeId end,
                          const std::string& bend);
+
+/// Axes of an FK control of the middle joint: x along its bone (`direction`, unit, rig space), z at
+/// right angles to the limb's plane, so that the limb bends about z alone. y points to the side
+/// that bone_frame's does.
+math::Mat3 hinge_frame(const Builder& b, const TwoBone& limb, math::Vec3 direction);
+
+/// Adds to degrees by which the solver turns a bone about itself (kStartTwist, kMiddleTwist), or
+/// the limb (kTwist).
+void add_turn(Builder& b, const Plug& turn, const Plug& degrees);
 
 /// Where the pole rests so that the limb stays where it is.
 math::Vec3 pole_position(const Builder& b, const TwoBone& limb, double distance);
