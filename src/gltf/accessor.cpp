@@ -157,4 +157,19 @@ std::optional<std::vector<float>> read_floats(const File& file, const Slim& slim
   return Reader(file, slim, accessor, diagnostics).read(count);
 }
 
+std::optional<std::vector<float>> read_times(const File& file, const Slim& slim, int accessor,
+                                             Diagnostics& diagnostics) {
+  const std::uint64_t count = slim.accessors[static_cast<std::size_t>(accessor)].count;
+  auto read = read_floats(file, slim, accessor, count, diagnostics);
+  if (!read) return std::nullopt;
+  for (std::size_t i = 0; i < read->size(); ++i) {
+    if (i == 0 ? (*read)[0] >= 0 : (*read)[i] > (*read)[i - 1]) continue;
+    diagnostics.report(codes::kTimes, Place(file.path, fmt::format("/accessors/{}", accessor)),
+                       fmt::format("time {} of accessor {} is {}{}", i, accessor, (*read)[i],
+                                   i == 0 ? "" : fmt::format(" after {}", (*read)[i - 1])));
+    return std::nullopt;
+  }
+  return read;
+}
+
 }  // namespace rigc::gltf

@@ -16,4 +16,8 @@ namespace rigc::gltf {
 std::optional<std::vector<float>> read_floats(const File& file, const Slim& slim, int accessor,
                                               std::uint64_t count, Diagnostics& diagnostics);
 
+/// The times of a sampler's input; such as do not rise are reported, too.
+std::optional<std::vector<float>> read_times(const File& file, const Slim& slim, int accessor,
+                                             Diagnostics& diagnostics);
+
 }  // namespace rigc::gltf

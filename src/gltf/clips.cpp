@@ -188,16 +188,8 @@ class ClipReader {
     const auto known = times_.find(accessor);
     if (known != times_.end()) return known->second;
     auto& shared = times_[accessor];
-    const std::uint64_t count = slim_.accessors[static_cast<std::size_t>(accessor)].count;
-    auto read = read_floats(file_, slim_, accessor, count, diagnostics_);
+    auto read = read_times(file_, slim_, accessor, diagnostics_);
     if (!read) return nullptr;
-    for (std::size_t i = 0; i < read->size(); ++i) {
-      if (i == 0 ? (*read)[0] >= 0 : (*read)[i] > (*read)[i - 1]) continue;
-      diagnostics_.report(codes::kTimes, Place(file_.path, fmt::format("/accessors/{}", accessor)),
-                          fmt::format("time {} of accessor {} is {}{}", i, accessor, (*read)[i],
-                                      i == 0 ? "" : fmt::format(" after {}", (*read)[i - 1])));
-      return nullptr;
-    }
     shared = std::make_shared<const std::vector<float>>(*std::move(read));
     return shared;
   }

@@ -219,6 +219,8 @@ std::string settings_text(const Rig& into, const Rig& from) {
         writer.begin_object().member("name", name).member("on", on).end_object();
     writer.end_array();
   }
+  if (into.settings.split_weights || from.settings.split_weights)
+    writer.member("split_weights", true);
   return writer.end_object().take();
 }
 
@@ -237,6 +239,19 @@ std::string owned_text(const Value& a, const Value& b) {
       writer.end_array();
     }
     writer.end_object();
+  }
+  return writer.end_object().take();
+}
+
+/// Of two rigs, at least one of which changed skins.
+std::string rebound_text(const Value& a, const Value& b) {
+  json::Writer writer;
+  writer.begin_object();
+  for (const char* list : {"skins", "primitives"}) {
+    writer.key(list).begin_array();
+    for (const Value& rebound : {a, b})
+      for (const Value& item : rebound[list].items()) writer.raw(item.text());
+    writer.end_array();
   }
   return writer.end_object().take();
 }
@@ -284,6 +299,7 @@ std::string joined_text(const Joining& joining, const Moved& moved) {
     if (from[list].size() != 0) whole.set(list, united(into[list], from[list]));
   whole.set("settings", settings_text(joining.into.rig, joining.from.rig));
   whole.set("owned", owned_text(into["owned"], from["owned"]));
+  if (from["rebound"]) whole.set("rebound", rebound_text(into["rebound"], from["rebound"]));
   return whole.text();
 }
 

@@ -30,6 +30,15 @@ class RigRemap {
     }
     for (const char* part : {"stays", "goes"})
       for (const auto& [array, runs] : item["owned"][part].members()) set_runs(runs, array);
+    for (const Value& skin : item["rebound"]["skins"].items()) {
+      set_index(skin["skin"], "skins");
+      for (const Value& accessor : skin["matrices"].items()) set_index(accessor, "accessors");
+    }
+    for (const Value& primitive : item["rebound"]["primitives"].items()) {
+      set_index(primitive["mesh"], "meshes");
+      for (const auto& [name, accessors] : primitive["attributes"].members())
+        for (const Value& accessor : accessors.items()) set_index(accessor, "accessors");
+    }
     const auto orphans = item["orphans"].items();
     for (std::size_t i = 0; i < orphans.size(); ++i) {
       // Where one is lost, nobody says which.
@@ -44,6 +53,11 @@ class RigRemap {
   void set_node(const Value& value, int found) {
     if (!value) return;
     const int now = places_.find("nodes", found >= 0 ? found : value.integer().value_or(-1));
+    if (now >= 0) edits_.replace(value, std::to_string(now));
+  }
+
+  void set_index(const Value& value, std::string_view array) {
+    const int now = places_.find(array, value.integer().value_or(-1));
     if (now >= 0) edits_.replace(value, std::to_string(now));
   }
 

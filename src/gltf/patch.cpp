@@ -178,6 +178,7 @@ int Patch::append(NewAccessor accessor) {
   if (!accessor.name.empty()) writer.member("name", accessor.name);
   writer.member("bufferView", append_view(accessor.data, accessor.target));
   writer.member("componentType", static_cast<int>(accessor.component));
+  if (accessor.normalised) writer.member("normalized", true);
   writer.member("count", accessor.count).member("type", accessor.type);
   if (!accessor.min.empty()) writer.key("min").numbers(accessor.min.data(), accessor.min.size());
   if (!accessor.max.empty()) writer.key("max").numbers(accessor.max.data(), accessor.max.size());

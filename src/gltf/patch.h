@@ -31,7 +31,8 @@ struct NewAccessor {
   std::string type = "SCALAR";  ///< SCALAR VEC2 VEC3 VEC4 MAT4
   std::size_t count = 0;
   std::vector<double> min, max;
-  int target = 0;  ///< 34962 vertices, 34963 indices, 0 none
+  bool normalised = false;  ///< integers stand for 0..1 (or -1..1)
+  int target = 0;           ///< 34962 vertices, 34963 indices, 0 none
   std::string name;
 };
 

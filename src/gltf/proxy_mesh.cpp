@@ -19,7 +19,7 @@ constexpr double kLargest = 1e30;  // of a coordinate
 
 ProxyPart part_of(const double* n) {
   ProxyPart part;
-  part.box = n[0] != 0;
+  part.style = n[0] == 2 ? ProxyStyle::cylinder : n[0] != 0 ? ProxyStyle::box : ProxyStyle::capsule;
   part.head = {n[1], n[2], n[3]};
   part.tail = {n[4], n[5], n[6]};
   part.side = {n[7], n[8], n[9]};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Capsules and boxes around bones as triangles. Test: tests/gltf/proxy_mesh_test.cpp
+// Capsules, boxes and cylinders around bones as triangles. Test: tests/gltf/proxy_mesh_test.cpp
 #include "gltf/proxy_shapes.h"
 
 #include <algorithm>
@@ -9,6 +9,7 @@ namespace rigc::gltf {
 namespace {
 
 constexpr std::uint32_t kSegments = 16;  // around the bone
+constexpr std::uint32_t kAround = 32;    // around a cylinder
 constexpr std::uint32_t kRings = 4;      // of each half sphere
 constexpr double kThinnest = 1e-9;
 
@@ -94,8 +95,51 @@ Surface box(const ProxyPart& part) {
   return out;
 }
 
+/// A ring of points about the bone at `center`; normals outward, or along `flat` where it is given.
+std::uint32_t add_ring(Surface& out, const ProxyPart& part, const Frame& frame, math::Vec3 center,
+                       const math::Vec3* flat) {
+  const auto first = static_cast<std::uint32_t>(out.points.size());
+  const double across = std::max(part.width / 2, kThinnest);
+  const double deep = std::max(part.depth / 2, kThinnest);
+  for (std::uint32_t i = 0; i < kAround; ++i) {
+    const double angle = 2 * math::kPi / kAround * i;
+    const double x = math::cos(angle), y = math::sin(angle);
+    out.points.push_back(center + frame.side * (across * x) + frame.front * (deep * y));
+    out.normals.push_back(
+        flat ? *flat
+             : math::normalised(frame.side * (x / across) + frame.front * (y / deep), frame.side));
+  }
+  return first;
+}
+
+/// A wall from head to tail and a flat lid at each end.
+Surface cylinder(const ProxyPart& part) {
+  Surface out;
+  const Frame frame = frame_of(part);
+  const bool flat = math::length(part.tail - part.head) < kThinnest;
+  const math::Vec3 tail = flat ? part.head + frame.along * kThinnest : part.tail;
+  const std::uint32_t low = add_ring(out, part, frame, part.head, nullptr);
+  const std::uint32_t high = add_ring(out, part, frame, tail, nullptr);
+  for (std::uint32_t i = 0; i < kAround; ++i) {
+    const std::uint32_t next = (i + 1) % kAround;
+    out.indices.insert(out.indices.end(), {low + i, low + next, high + next});
+    out.indices.insert(out.indices.end(), {low + i, high + next, high + i});
+  }
+  const math::Vec3 down = -frame.along;
+  const std::uint32_t floor = add_ring(out, part, frame, part.head, &down);
+  const std::uint32_t lid = add_ring(out, part, frame, tail, &frame.along);
+  for (std::uint32_t i = 1; i + 1 < kAround; ++i) {
+    out.indices.insert(out.indices.end(), {floor, floor + i + 1, floor + i});
+    out.indices.insert(out.indices.end(), {lid, lid + i, lid + i + 1});
+  }
+  return out;
+}
+
 }  // namespace
 
-Surface surface(const ProxyPart& part) { return part.box ? box(part) : capsule(part); }
+Surface surface(const ProxyPart& part) {
+  if (part.style == ProxyStyle::cylinder) return cylinder(part);
+  return part.style == ProxyStyle::box ? box(part) : capsule(part);
+}
 
 }  // namespace rigc::gltf

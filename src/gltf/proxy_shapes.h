@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Capsules and boxes around bones as triangles. Test: tests/gltf/proxy_mesh_test.cpp
+// Capsules, boxes and cylinders around bones as triangles. Test: tests/gltf/proxy_mesh_test.cpp
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,12 @@
 
 namespace rigc::gltf {
 
+/// Numbers as in scene::mesh::kParts.
+enum class ProxyStyle : std::uint8_t { capsule = 0, box = 1, cylinder = 2 };
+
 /// One piece of a proxy mesh, in the space of its joint.
 struct ProxyPart {
-  bool box = false;
+  ProxyStyle style = ProxyStyle::capsule;
   math::Vec3 head, tail;     ///< ends of the bone
   math::Vec3 side{1, 0, 0};  ///< unit, direction of `width`
   double width = 0;          ///< full extents across the bone

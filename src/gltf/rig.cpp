@@ -18,6 +18,7 @@
 #include "gltf/rig_nodes.h"
 #include "gltf/rig_replace.h"
 #include "gltf/splice.h"
+#include "gltf/split_weights.h"
 
 namespace rigc::gltf {
 namespace {
@@ -285,6 +286,7 @@ bool write_rig(Patch& patch, Rig& rig, int ancestor, const Places& places,
   Given given(patch);
   const auto proxy_nodes = write_proxies(patch, rig, proxies, diagnostics);
   if (!proxy_nodes) return false;
+  split_weights(patch, rig, diagnostics);
   given.move_to(rig.owned.stays);
   const std::vector<int> meshes = write_shapes(patch, rig.scene);
   given.move_to(rig.owned.goes);

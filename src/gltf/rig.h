@@ -55,6 +55,32 @@ struct Owned {
   bool operator==(const Owned&) const = default;
 };
 
+/// What of the model's skins a rig changed so that joints of its own bend them, and what it was.
+/// The model's accessors stay in the file.
+struct Rebound {
+  /// An attribute of a primitive, `JOINTS_0` or the like: accessors.
+  struct Attribute {
+    std::string name;
+    int before = -1;  ///< -1: it had none
+    int now = -1;
+    bool operator==(const Attribute&) const = default;
+  };
+  struct Primitive {
+    int mesh = -1, primitive = -1;
+    std::vector<Attribute> attributes;
+    bool operator==(const Primitive&) const = default;
+  };
+  struct Skin {
+    int skin = -1;
+    int joints = 0;             ///< how many it had: those of the rig stand behind them
+    int before = -1, now = -1;  ///< accessors of its inverse bind matrices
+    bool operator==(const Skin&) const = default;
+  };
+  std::vector<Skin> skins;
+  std::vector<Primitive> primitives;
+  bool operator==(const Rebound&) const = default;
+};
+
 /// A value that an animator set without keying it.
 struct Posed {
   scene::Plug plug;    ///< translate, rotation or scale of a control, or an attribute of a user
@@ -96,6 +122,7 @@ struct Rig {
   /// glTF node that the rig's roots are under: the rig's space; -1: the scene.
   int ancestor = -1;
   Owned owned;
+  Rebound rebound;
 };
 
 /// The scene of a rig as it was built: without what animators set.

@@ -63,9 +63,20 @@ inline constexpr Code kLockedMoved{
     745, Severity::warning, "locked attribute was changed",
     "Another program moved a control where its rig has locked it. The rig's value is used."};
 
+// Skins that share their weights with joints of a rig.
+inline constexpr Code kBendsNothing{
+    910, Severity::warning, "joints bend no vertex",
+    "Joints that a rig makes along a bone bend a model where its skins are bound to them. "
+    "`rigc build --split-weights` gives them a share of what is weighted to the bone's joint."};
+inline constexpr Code kNotShared{
+    911, Severity::warning, "weights are not shared",
+    "A skin needs inverse bind matrices, and a mesh one skin and vertices that are not compressed, "
+    "to be bound to further joints. It stays bound as it was."};
+
 inline constexpr const Code* kRigCodes[] = {
     &kRigVersion,   &kRigType,      &kRigIndex,       &kRigWord,     &kRigText,
     &kRigDuplicate, &kRigHierarchy, &kRigConnection,  &kRigValue,    &kRigTooLarge,
-    &kSameIdentity, &kNodeLost,     &kExtraNotNumber, &kNotWritable, &kLockedMoved};
+    &kSameIdentity, &kNodeLost,     &kExtraNotNumber, &kNotWritable, &kLockedMoved,
+    &kBendsNothing, &kNotShared};
 
 }  // namespace rigc::gltf::codes

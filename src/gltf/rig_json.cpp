@@ -2,6 +2,7 @@
 // A rig as the text of one entry of RIGC_rig's `rigs`, and back. Test: tests/gltf/rig_json_test.cpp
 #include "gltf/rig_json.h"
 
+#include "gltf/rebound.h"
 #include "gltf/rig_codes.h"
 #include "gltf/rig_json_orphans.h"
 #include "gltf/rig_json_scene.h"
@@ -103,6 +104,7 @@ std::string to_json(const Rig& rig, const Sources& sources) {
   writer.end_array();
   write_orphans(writer, rig);
   write_owned(writer, rig.owned);
+  write_rebound(writer, rig.rebound);
   return writer.end_object().take();
 }
 
@@ -118,6 +120,7 @@ std::optional<Rig> from_json(const json::Value& object, const std::string& file,
   rig.modules = read_versions(object, "modules", reader);
   read_commands(object, reader, places, rig);
   read_owned(object, reader, rig.owned);
+  read_rebound(object, reader, rig.rebound);
   if (reader.ok()) read_scene(object, reader, places, rig);
   if (reader.ok()) read_orphans(object, reader, rig);
   if (room) *room = reader.room();

@@ -167,6 +167,7 @@ void write_settings(json::Writer& writer, const tags::Settings& settings) {
       writer.begin_object().member("name", name).member("on", on).end_object();
     writer.end_array();
   }
+  if (settings.split_weights) writer.member("split_weights", true);
   writer.end_object();
 }
 
@@ -174,6 +175,7 @@ void read_settings(const json::Value& rig, JsonReader& reader, tags::Settings& o
   const json::Value settings = rig["settings"];
   if (!settings.is_object()) return reader.fail(codes::kRigType, rig, "\"settings\" is missing");
   reader.get(settings, "rest", out.rest);
+  reader.get(settings, "split_weights", out.split_weights);
   for (const json::Value& item : reader.objects(settings, "features", kMostDeclared)) {
     tags::Settings::Feature feature;
     reader.get(item, "name", feature.name, Need::required);

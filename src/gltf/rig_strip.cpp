@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/trace.h"
+#include "gltf/rebound.h"
 #include "gltf/rig.h"
 #include "gltf/rig_nodes.h"
 #include "gltf/rig_replace.h"
@@ -33,25 +34,33 @@ void add_proxies(const std::vector<Value>& nodes, const Rig& rig, Indices& going
       going.insert(static_cast<int>(i));
 }
 
-/// Nodes that bend a skin which stays: they stay with it.
-Indices bones(const File& file, const Rigs& rigs) {
+/// How many joints of a skin are the model's: all, but where rigs that go added some.
+std::size_t own_joints(const Rigs& rebound, int skin, std::size_t count) {
+  for (const Rig* rig : rebound)
+    for (const Rebound::Skin& changed : rig->rebound.skins)
+      if (changed.skin == skin) count = std::min(count, static_cast<std::size_t>(changed.joints));
+  return count;
+}
+
+/// Nodes that bend a skin which stays: they stay with it. `rebound`: rigs whose changes of skins
+/// are undone.
+Indices bones(const File& file, const Indices& going_skins, const Rigs& rebound) {
   Indices out;
   const auto skins = file.root()["skins"].items();
   for (std::size_t i = 0; i < skins.size(); ++i) {
-    const bool ours = std::any_of(rigs.begin(), rigs.end(), [&](const Rig* rig) {
-      return rig->owned.stays.skins.contains(static_cast<int>(i));
-    });
-    if (ours) continue;
-    for (const Value& joint : skins[i]["joints"].items()) out.insert(index_of(joint));
+    if (going_skins.count(static_cast<int>(i))) continue;
+    auto joints = skins[i]["joints"].items();
+    joints.resize(own_joints(rebound, static_cast<int>(i), joints.size()));
+    for (const Value& joint : joints) out.insert(index_of(joint));
     if (skins[i]["skeleton"]) out.insert(index_of(skins[i]["skeleton"]));
   }
   return out;
 }
 
-/// Nodes of the rigs that go, without those that carry something that stays: others may have hung
-/// things there. What a kept node carries stays with it.
-Indices going_nodes(const File& file, const std::vector<Value>& nodes, const Rigs& rigs,
-                    Strip remains, const Indices& kept) {
+/// Nodes of the rigs that go, without `staying` and those that carry something that stays: others
+/// may have hung things there. What a kept node carries stays with it.
+Indices going_nodes(const std::vector<Value>& nodes, const Rigs& rigs, Strip remains,
+                    const Indices& staying, const Indices& kept) {
   Indices going;
   for (const Rig* rig : rigs) {
     const NodePlan plan = plan_nodes(*rig, rig->ancestor);
@@ -63,8 +72,7 @@ Indices going_nodes(const File& file, const std::vector<Value>& nodes, const Rig
     for (const Orphan& orphan : rig->orphans) going.insert(orphan.node);
     if (remains == Strip::nothing) add_proxies(nodes, *rig, going);
   }
-  if (remains == Strip::nothing)
-    for (const int bone : bones(file, rigs)) going.erase(bone);
+  for (const int node : staying) going.erase(node);
   std::vector<int> parents(nodes.size(), -1);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (const Value& child : nodes[i]["children"].items())
@@ -102,6 +110,7 @@ Indices skin_of(const Value& node) {
 struct Taking {
   const Rigs& rigs;
   Strip remains;
+  const Rigs& rebound;  ///< those of the rigs whose changes of skins are undone
   bool operator()(Slots Owned::Part::*slots, int index) const {
     return std::any_of(rigs.begin(), rigs.end(), [&](const Rig* rig) {
       return (rig->owned.goes.*slots).contains(index) ||
@@ -123,11 +132,14 @@ Indices released(const std::vector<Value>& users, const Indices& going_users, Na
   return going;
 }
 
-Going find_going(const File& file, const Taking& taking, const Indices& kept) {
+/// `going_skins`: bones of all others stay.
+Going find_going(const File& file, const Taking& taking, const Indices& kept,
+                 const Indices& going_skins) {
   Going going;
   const auto nodes = file.root()["nodes"].items();
   const auto meshes = file.root()["meshes"].items();
-  going.nodes = going_nodes(file, nodes, taking.rigs, taking.remains, kept);
+  going.nodes = going_nodes(nodes, taking.rigs, taking.remains,
+                            bones(file, going_skins, taking.rebound), kept);
   Indices left = going.nodes;  // whose meshes and skins go: kept nodes get them anew
   left.insert(kept.begin(), kept.end());
   going.meshes = released(nodes, left, mesh_of, taking, &Owned::Part::meshes);
@@ -136,7 +148,20 @@ Going find_going(const File& file, const Taking& taking, const Indices& kept) {
   return going;
 }
 
-/// Accessors and buffer views of meshes and skins that go.
+/// A skin of ours that others use stays, its bones with it, and what these carry: all skins of ours
+/// go at first, and fewer each time.
+Going find_going(const File& file, const Taking& taking, const Indices& kept) {
+  Indices skins;
+  for (int i = 0; i < static_cast<int>(file.root()["skins"].size()); ++i)
+    if (taking(&Owned::Part::skins, i)) skins.insert(i);
+  for (;;) {
+    Going going = find_going(file, taking, kept, skins);
+    if (going.skins == skins) return going;
+    skins = going.skins;
+  }
+}
+
+/// Accessors and buffer views of meshes and skins that go, and of what is undone.
 void release_data(Patch& patch, const File& file, const Going& going, const Taking& taking) {
   Uses uses(file);
   const auto drop = [&](int accessor) {
@@ -148,6 +173,7 @@ void release_data(Patch& patch, const File& file, const Going& going, const Taki
   const auto skins = file.root()["skins"].items();
   for (const int skin : going.skins)
     drop(index_of(skins[static_cast<std::size_t>(skin)]["inverseBindMatrices"]));
+  for (const Rig* rig : taking.rebound) unbind(patch, rig->rebound, uses);
 }
 
 /// Kept nodes are linked anew, and their own lists written anew, by those who keep them.
@@ -216,7 +242,10 @@ std::string remaining_rigs(const Patch& patch, const Rigs& stripped) {
 std::set<int> strip_but(Patch& patch, const File& file, const Rigs& rigs, Strip remains,
                         const Kept& kept) {
   const auto nodes = file.root()["nodes"].items();
-  const Taking taking{rigs, remains};
+  Rigs rebound;
+  for (const Rig* rig : rigs)
+    if (remains == Strip::nothing && is_rebound(file, *rig)) rebound.push_back(rig);
+  const Taking taking{rigs, remains, rebound};
   const Going going = find_going(file, taking, kept.nodes);
   for (const Rig* rig : rigs) clean_nodes(patch, nodes, going, kept, *rig);
   unlink_nodes(patch, nodes, file.root()["scenes"], going.nodes, kept.nodes);

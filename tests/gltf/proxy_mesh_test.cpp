@@ -17,9 +17,9 @@ using namespace rigc::gltf::test;
 
 namespace {
 
-ProxyPart random_part(rigc::test::Random& random, bool box) {
+ProxyPart random_part(rigc::test::Random& random, ProxyStyle style) {
   ProxyPart part;
-  part.box = box;
+  part.style = style;
   part.head = random.vector();
   part.tail = part.head + random.direction() * random.between(0.1, 2);
   part.side = random.direction();
@@ -76,13 +76,15 @@ std::vector<float> floats_of(const File& file, const json::Value& accessor) {
 TEST_CASE("gltf proxy_mesh: surfaces are closed and face outward") {
   rigc::test::Random random(1);
   for (int round = 0; round < 50; ++round) {
-    const ProxyPart part = random_part(random, round % 2 == 1);
+    const ProxyPart part = random_part(random, static_cast<ProxyStyle>(round % 3));
     const Surface s = surface(part);
     CHECK(closed(s));
     const double length = math::length(part.tail - part.head);
     const double block = part.width * part.depth * length;
-    if (part.box)
+    if (part.style == ProxyStyle::box)
       CHECK(volume(s) == doctest::Approx(block).epsilon(1e-9));
+    else if (part.style == ProxyStyle::cylinder)
+      CHECK(volume(s) == doctest::Approx(block * math::kPi / 4).epsilon(0.01));
     else
       CHECK(volume(s) >
             block * 0.7);  // a cylinder has pi / 4 of it, its segments a little less, the caps more
@@ -105,7 +107,10 @@ TEST_CASE("gltf proxy_mesh: a piece without length is a sphere, not a crash") {
   const Surface s = surface(part);
   CHECK(volume(s) == doctest::Approx(4.0 / 3 * math::kPi).epsilon(0.1));
   part.width = 0;
-  for (const math::Vec3& point : surface(part).points) CHECK(math::length(point) < 1.1);
+  for (const ProxyStyle style : {ProxyStyle::capsule, ProxyStyle::box, ProxyStyle::cylinder}) {
+    part.style = style;
+    for (const math::Vec3& point : surface(part).points) CHECK(math::length(point) < 1.1);
+  }
 }
 
 TEST_CASE("gltf proxy_mesh: skinning at rest gives the mesh as it lies") {

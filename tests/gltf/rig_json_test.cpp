@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include "base/files.h"
 #include "file_helpers.h"
 #include "gltf/rig_codes.h"
 #include "gltf/rig_places.h"
@@ -190,4 +191,23 @@ TEST_CASE("gltf rig_json: lies are found, each at its place") {
     INFO(std::string(c.from), " became ", std::string(c.to));
     CHECK(first_error(replaced(text, c.from, c.to)) == std::string(c.error));
   }
+}
+
+TEST_CASE("rig schema: names every kind of node") {
+  Diagnostics diagnostics;
+  const std::string path = std::string(RIGC_SOURCE_DIR) + "/docs/schema/RIGC_rig.schema.json";
+  const auto text = read_file(path, json::kMostBytes, diagnostics);
+  REQUIRE(text);
+  const auto schema = json::parse(*text, path, 0, diagnostics);
+  REQUIRE(schema);
+  std::vector<std::string> named;
+  for (const json::Value& kind :
+       schema->root()["$defs"]["node"]["properties"]["kind"]["enum"].items()) {
+    named.push_back(kind.string().value_or(""));
+  }
+  std::vector<std::string> kinds;
+  for (int kind = 0; kind < static_cast<int>(scene::Kind::count); ++kind) {
+    kinds.emplace_back(scene::spec(static_cast<scene::Kind>(kind)).name);
+  }
+  CHECK(named == kinds);
 }

@@ -2,6 +2,7 @@
 // Rigs taken out of their files: nothing of ours remains but joints and proxy meshes, all of others
 // does.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "file_helpers.h"
 #include "gltf/rig.h"
@@ -13,12 +14,12 @@ using namespace rigc::gltf::test;
 
 namespace {
 
-File stripped(const File& file, const std::string& name) {
+File stripped(const File& file, const std::string& name, Strip remains = Strip::character) {
   Diagnostics diagnostics;
   const auto rigs = read_rigs(file, diagnostics);
   REQUIRE(rigs);
   Patch patch(file);
-  strip_rigs(patch, file, *rigs);
+  strip_rigs(patch, file, *rigs, remains);
   const auto output = patch.finish(file.binary, diagnostics);
   REQUIRE(output);
   const std::string path = make_folder(name) + "/stripped.glb";
@@ -100,6 +101,43 @@ TEST_CASE("gltf rig_strip: what others hung under a control keeps its place") {
   CHECK_FALSE(nodes[static_cast<std::size_t>(control)]["mesh"]);
   CHECK_FALSE(nodes[static_cast<std::size_t>(control)]["extras"]);
   CHECK_FALSE(mentions(after, "RIGC"));
+}
+
+TEST_CASE("gltf rig_strip: what bends a skin that others use stays") {
+  Diagnostics diagnostics;
+  Rig rig = proxy_rig(diagnostics);
+  const File file = written(empty_file(), rig, "strip_bent");
+  int control = -1;
+  for (const scene::NodeId id : rig.scene.nodes())
+    if (rig.scene[id].kind == scene::Kind::control) control = rig.nodes[id.index];
+  REQUIRE(control >= 0);
+  // Another program binds a mesh to a control, and uses the proxy's skin a second time.
+  Patch patch(file);
+  const int base = rig.nodes[joint_named(rig, "base").index];
+  const int skin = patch.append("skins", fmt::format(R"({{"joints":[{},{}]}})", control, base));
+  const int coat =
+      patch.append("nodes", fmt::format(R"({{"name":"coat","mesh":0,"skin":{}}})", skin));
+  const int cloak = patch.append("nodes", R"({"name":"cloak","mesh":0,"skin":0})");
+  for (const int node : {coat, cloak}) patch.add_child(-1, node);
+  const auto output = patch.finish(true, diagnostics);
+  REQUIRE(output);
+  const std::string path = make_folder("strip_bent_more") + "/more.glb";
+  write_bytes(path, whole(*output));
+  const auto more = gltf::open(path, diagnostics);
+  REQUIRE(more);
+  for (const Strip remains : {Strip::character, Strip::nothing}) {
+    CAPTURE(static_cast<int>(remains));
+    const File after = stripped(*more, "strip_bent_after", remains);
+    const auto nodes = after.root()["nodes"].items();
+    const auto named = [&](const json::Value& index) {
+      return nodes.at(static_cast<std::size_t>(*index.integer()))["name"].string().value_or("");
+    };
+    REQUIRE(after.root()["skins"].size() == 2);
+    CHECK(named(after.root()["skins"].items()[1]["joints"].items()[0]) == "tip_control");
+    for (const json::Value& joint : after.root()["skins"].items()[0]["joints"].items())
+      CHECK(named(joint) != "");
+    CHECK_FALSE(mentions(after, "RIGC"));
+  }
 }
 
 TEST_CASE("gltf rig_strip: another rig of the file stays") {
