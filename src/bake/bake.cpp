@@ -81,6 +81,7 @@ std::optional<anim::Clip> bake(const scene::Scene& scene, const std::vector<int>
   std::vector<float> key_times = as_floats(motion->times);
 
   report.frames = std::max(report.frames, key_times.size());
+  report.times = key_times;
   report.shear.add(motion->shear);
   if (tolerance > 0)
     report.reduction_error =

@@ -53,6 +53,7 @@ struct Shear {
 
 struct Report {
   std::size_t frames = 0;
+  std::vector<float> times;  ///< of the frames of the last clip, seconds
   std::size_t channels = 0;
   std::size_t keys = 0;
   Shear shear;                 ///< the largest of any clip

@@ -8,6 +8,7 @@
 
 #include "bake/frames.h"
 #include "bake/joints.h"
+#include "bake/match.h"
 #include "bake/transfer_measure.h"
 #include "bake/transfer_times.h"
 #include "bake/transfer_write.h"
@@ -25,7 +26,7 @@ std::vector<eval::ClipInput> other_inputs(const scene::Scene& scene, const std::
   std::set<Plug> taken;
   for (const SwitchValue& value : switches) taken.insert(value.attribute);
   for (const Unknown& u : plan.unknowns) {
-    if (is_twist(u)) taken.insert(u.attribute);
+    if (is_number(u)) taken.insert(u.attribute);
     for (const anim::Path path : kPaths)
       if (solves(u, path)) taken.insert(plug_of(u.node, path));
   }
@@ -59,8 +60,9 @@ class Run {
   Run(const scene::Scene& scene, const std::vector<int>& nodes, const anim::Clip& clip,
       const TransferOptions& options, const std::vector<Aim>& aims, const TransferPlan& plan)
       : scene_(scene), nodes_(nodes), clip_(clip), options_(options), aims_(aims), plan_(plan) {
-    others_ =
-        other_inputs(scene, aims, eval::clip_inputs(scene, nodes, clip), plan, options.switches);
+    solving_ = options.switches;
+    for (const MatchLimb& limb : find_match_limbs(scene)) add_neutral(limb);
+    others_ = other_inputs(scene, aims, eval::clip_inputs(scene, nodes, clip), plan, solving_);
   }
 
   /// Numbers that are kept for each frame.
@@ -92,14 +94,22 @@ class Run {
   }
 
  private:
+  /// While a limb is solved its bones are as long as its joints say, by attributes for that alone.
+  void add_neutral(const MatchLimb& limb) {
+    for (const char* option : {"stretch", "squash", "soft", "slide", "pin", "wrist"})
+      if (const auto found = limb.by.find(option); found != limb.by.end())
+        solving_.push_back({found->second, 0});
+  }
+
   bool inserts() const { return options_.fps == 0 && options_.tolerance > 0; }
   Threads& threads() { return options_.threads ? *options_.threads : alone_; }
 
   std::optional<Solution> solve_at(const std::vector<double>& times, const Solution* others,
                                    Diagnostics& diagnostics) {
-    const auto worlds = play(aims_, times);
-    return solve(scene_, {plan_, aims_, worlds, others_, options_.switches, times, others},
-                 threads(), diagnostics);
+    auto worlds = play(aims_, times);
+    point_bones(plan_, worlds);
+    return solve(scene_, {plan_, aims_, worlds, others_, solving_, times, others}, threads(),
+                 diagnostics);
   }
 
   /// Solves at `more` and puts that among `times`. Frames do not depend on each other, but for what
@@ -132,6 +142,7 @@ class Run {
   const TransferOptions& options_;
   const std::vector<Aim>& aims_;
   const TransferPlan& plan_;
+  std::vector<SwitchValue> solving_;  // those that are asked for, and what stays out of the way
   std::vector<eval::ClipInput> others_;
   Threads alone_{1};
 };

@@ -28,6 +28,25 @@ void floats_around(double x, double (&out)[kAround]) {
   std::copy(std::begin(all), std::end(all), out);
 }
 
+/// Sine of the angle between the bones below which a limb counts as exactly straight or folded: no
+/// goal of 32-bit floats says so little.
+constexpr double kExactly = 5e-6;
+
+/// 1 for a limb that is exactly straight, whose goal may lie farther away but no nearer; -1 for one
+/// that is exactly folded, where it is the other way round; else 0.
+double bend_of(const Bones& bones) {
+  if (math::length(math::cross(bones.first, bones.second)) > kExactly) return 0;
+  return math::dot(bones.first, bones.second) > 0 ? 1 : -1;
+}
+
+/// How far the goal is from the start.
+double distance_of(const Bones& bones, double bent) {
+  if (bent == 0) return math::length(bones.end - bones.start);
+  const double upper = math::length(bones.middle - bones.start);
+  const double lower = math::length(bones.end - bones.middle);
+  return std::fabs(upper + bent * lower);
+}
+
 Vec3 perpendicular_part(Vec3 v, Vec3 unit) { return v - unit * math::dot(v, unit); }
 
 }  // namespace
@@ -51,9 +70,11 @@ Bones bones_of(const Limb& limb, const math::Affine& start, const math::Affine& 
 
 Vec3 rounded_goal(const Bones& bones, const math::Affine& to_point) {
   const Vec3 exact = math::inverse(to_point) * bones.end;
-  const double distance = math::length(bones.end - bones.start);
+  const double bent = bend_of(bones);
+  const double distance = distance_of(bones, bent);
   const auto error_of = [&](Vec3 translation) {
-    return std::fabs(math::length(to_point * translation - bones.start) - distance);
+    const double more = math::length(to_point * translation - bones.start) - distance;
+    return std::fabs(more) + (more * bent < 0 ? distance : 0);
   };
   double candidates[3][kAround];
   for (std::size_t i = 0; i < 3; ++i) floats_around(exact[i], candidates[i]);

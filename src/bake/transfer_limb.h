@@ -27,7 +27,8 @@ Bones bones_of(const Limb& limb, const math::Affine& start, const math::Affine& 
 
 /// The translation of the goal's control as 32-bit floats: of those around the exact one that with
 /// which start and end are as far apart as the bones say. The middle of a limb that is nearly
-/// straight moves by the root of an error in that distance. `to_point`: from a translation to the
+/// straight moves by the root of an error in that distance: of one that is exactly straight or
+/// folded the goal is such that it stays so. `to_point`: from a translation to the
 /// point that the limb's end is to reach.
 math::Vec3 rounded_goal(const Bones& bones, const math::Affine& to_point);
 

@@ -15,8 +15,8 @@ inline constexpr std::uint16_t kLimbReads[] = {scene::ik2::kBase,       scene::i
                                                scene::ik2::kStartScale, scene::ik2::kMiddleScale};
 
 /// Sorts unknowns by level: what the parents of those on one level come from, and the limbs that
-/// they move, is below it. Gives the
-/// number of levels.
-int order(const scene::Scene& scene, std::vector<Unknown>& unknowns);
+/// they move, is below it, but for `feedback`, where a parent comes from its own child's values.
+/// Gives the number of levels.
+int order(const scene::Scene& scene, std::vector<Unknown>& unknowns, bool& feedback);
 
 }  // namespace rigc::bake

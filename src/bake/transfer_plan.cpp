@@ -7,6 +7,7 @@
 #include <set>
 
 #include "bake/joints.h"
+#include "bake/match.h"
 #include "bake/transfer_order.h"
 #include "bake/transfer_own.h"
 #include "bake/transfer_plugs.h"
@@ -31,7 +32,9 @@ constexpr double kLeftOut = 4e-6;
 /// A control that something is fixed to, and where that is seen from it.
 struct Carrier {
   NodeId control;
-  math::Affine offset;
+  math::Affine offset;  ///< from `turned` where that is valid
+  NodeId turned;        ///< see Unknown
+  math::Affine before;
 };
 
 /// What a constraint takes from one of its targets.
@@ -52,6 +55,7 @@ class Planner {
           const std::vector<SwitchValue>& switches, Diagnostics& diagnostics)
       : scene_(scene), nodes_(nodes), aims_(aims), diagnostics_(diagnostics) {
     for (const SwitchValue& value : switches) settings_.push_back({value.attribute, value.value});
+    limbs_ = find_match_limbs(scene);
     stay_ = negligible(scene, aims, kLeftOut * extent(scene, aims));
   }
 
@@ -59,9 +63,10 @@ class Planner {
     const std::size_t errors = diagnostics_.errors();
     for (std::size_t i = 0; i < aims_.size(); ++i) bind(static_cast<int>(i));
     for (const auto& [index, solved] : solvers_) bind_limb(solved);
+    for (const MatchLimb& limb : limbs_) bind_lengths(limb);
     if (diagnostics_.errors() != errors) return std::nullopt;
-    TransferPlan plan{std::move(unknowns_), 0};
-    plan.levels = order(scene_, plan.unknowns);
+    TransferPlan plan{std::move(unknowns_), 0, false};
+    plan.levels = order(scene_, plan.unknowns, plan.feedback);
     return plan;
   }
 
@@ -70,19 +75,52 @@ class Planner {
     return bake::is_driven(scene_, {id, attribute});
   }
 
+  /// Whether a transform's value comes from where controls are, not from their attributes alone,
+  /// which stay as they are.
+  bool moves_with_controls(NodeId id, std::uint16_t attribute) const {
+    std::vector<Plug> open{{id, attribute}};
+    std::set<Plug> seen(open.begin(), open.end());
+    while (!open.empty()) {
+      const Plug plug = open.back();
+      open.pop_back();
+      const bool of_transform = scene::spec(scene_[plug.node].kind).is_transform;
+      if (of_transform && plug.node != id && plug.attribute < transform::kCount) return true;
+      for (const Plug& need : needs_of(scene_, plug))
+        if (seen.insert(need).second) open.push_back(need);
+    }
+    return false;
+  }
+
   /// Up from a node over transforms that are fixed to their parents, to a control of the file.
   std::optional<Carrier> carrier(NodeId id) const {
-    Carrier out{id, {}};
+    Carrier out{id, {}, {}, {}};
     for (; out.control.valid(); out.control = scene::transform_above(scene_, out.control)) {
-      const Kind kind = scene_[out.control].kind;
-      if (kind == Kind::control && nodes_[out.control.index] >= 0) return out;
-      const bool fixed = kind != Kind::joint && !is_driven(out.control, transform::kTranslate) &&
-                         !is_driven(out.control, transform::kRotation) &&
-                         !is_driven(out.control, transform::kScale);
-      if (!fixed) return std::nullopt;
-      out.offset = math::compose(scene_.local(out.control)) * out.offset;
+      const NodeId at = out.control;
+      const Kind kind = scene_[at].kind;
+      if (kind == Kind::control && nodes_[at.index] >= 0) return out;
+      const auto stays = [&](std::uint16_t attribute) {
+        return !is_driven(at, attribute) || !moves_with_controls(at, attribute);
+      };
+      if (kind == Kind::joint || !stays(transform::kTranslate) || !stays(transform::kScale))
+        return std::nullopt;
+      math::Trs local = scene_.local(at);
+      if (!stays(transform::kRotation)) {
+        if (out.turned.valid() || !turns_as_control(at)) return std::nullopt;
+        out.turned = at;
+        out.offset = math::compose({{}, {}, local.scale}) * out.offset;
+        local = {local.translation, {}, {1, 1, 1}};
+      }
+      math::Affine& seen = out.turned.valid() ? out.before : out.offset;
+      seen = math::compose(local) * seen;
     }
     return std::nullopt;
+  }
+
+  /// Whether a control's own rotation is a transform's.
+  bool turns_as_control(NodeId id) const {
+    const auto source = scene_.source({id, transform::kRotation});
+    return source && scene_[source->node].kind == Kind::control &&
+           source->attribute == transform::kRotation && source->component < 0;
   }
 
   /// The target that has all the weight.
@@ -161,7 +199,7 @@ class Planner {
     }
     if (target->source.attribute != transform::kWorld) return;
     const auto by = carrier(target->source.node);
-    if (by) return follow(index, path, by->control, by->offset * target->offset);
+    if (by) return follow(index, path, *by, by->offset * target->offset);
     if (path == transform::kTranslate) bind_relay(index, target->source.node, target->offset);
   }
 
@@ -183,8 +221,18 @@ class Planner {
     u.control_point = math::compose({{}, local.rotation, local.scale}).linear * offset.origin;
   }
 
-  void follow(int index, std::uint16_t path, NodeId control, const math::Affine& offset) {
-    Unknown& u = unknown(control, Unknown::Rule::follow);
+  /// What a control carries for several reasons is seen from one place.
+  static bool set_carrier(Unknown& u, const Carrier& by) {
+    const bool bound = u.turn_aim >= 0 || u.move_aim >= 0 || u.solver.valid();
+    if (bound && u.turned != by.turned) return false;
+    u.turned = by.turned;
+    u.before = by.before;
+    return true;
+  }
+
+  void follow(int index, std::uint16_t path, const Carrier& by, const math::Affine& offset) {
+    Unknown& u = unknown(by.control, Unknown::Rule::follow);
+    if (!set_carrier(u, by)) return;
     if (path == transform::kTranslate) {
       if (u.move_aim >= 0) return;
       u.moves = true;
@@ -213,13 +261,24 @@ class Planner {
                               scene_.rest_world(aims_[static_cast<std::size_t>(index)].id).origin);
   }
 
+  /// What a limb's end stays behind its goal by is nothing while the limb is at true length.
+  NodeId goal_above(NodeId solver, NodeId goal) const {
+    const bool has_options = std::any_of(limbs_.begin(), limbs_.end(), [&](const MatchLimb& limb) {
+      return limb.solver == solver && limb.by.contains("soft");
+    });
+    const auto moved = scene_.source({goal, transform::kTranslate});
+    const bool stays_behind = has_options && moved && scene_[moved->node].kind == Kind::compute;
+    return stays_behind ? scene::transform_above(scene_, goal) : goal;
+  }
+
   /// Goal and pole of a limb that a solver moves.
   void bind_limb(const Solved& solved) {
     if (solved.start < 0 || solved.middle < 0) return;
     const auto goal = scene_.source({solved.solver, ik2::kGoal});
     const auto pole = scene_.source({solved.solver, ik2::kPole});
-    if (const auto by = goal ? carrier(goal->node) : std::nullopt) {
+    if (const auto by = goal ? carrier(goal_above(solved.solver, goal->node)) : std::nullopt) {
       Unknown& u = unknown(by->control, Unknown::Rule::follow);
+      if (!set_carrier(u, *by)) return;
       u.moves = true;
       u.control_point =
           by->offset * std::get<math::Vec3>(scene_.value({solved.solver, ik2::kGoalOffset}));
@@ -237,19 +296,28 @@ class Planner {
         math::length(scene_.rest_world(pole->node).origin -
                      scene_.rest_world(aims_[static_cast<std::size_t>(solved.middle)].id).origin);
     set_limb(u, solved);
+    u.swivels = swivels(solved);
+  }
+
+  /// Whether the limb is turned from the side of its pole, and its bones back, by how far its goal
+  /// is away: see two_bone.cpp of the modules.
+  bool swivels(const Solved& solved) const {
+    return scene_.source({solved.solver, ik2::kTwist}).has_value();
   }
 
   /// The one attribute that turns a bone about itself; what lies between must be linear.
   void bind_twist(const Solved& solved, std::uint16_t twist) {
-    const Plug plug{solved.solver, twist};
-    const auto found = attributes_behind(scene_, {plug});
+    const Plug plug{solved.solver, twist}, swivel{solved.solver, ik2::kTwist};
+    auto found = attributes_behind(scene_, {plug});
+    for (const Plug& other : attributes_behind(scene_, {swivel})) found.erase(other);
     if (found.size() != 1 || nodes_[found.begin()->node.index] < 0) return;
     double turns[2];
     for (const int value : {0, 1}) {
       const auto turn = eval::evaluate(
-          scene_, {plug}, {{*found.begin(), static_cast<double>(value)}}, diagnostics_);
+          scene_, {plug, swivel}, {{*found.begin(), static_cast<double>(value)}}, diagnostics_);
       if (!turn) return;
       turns[value] = std::get<double>(turn->front());
+      if (swivels(solved)) turns[value] += std::get<double>(turn->back());
     }
     if (turns[0] == turns[1]) return;
     Unknown& u = unknowns_.emplace_back();
@@ -262,6 +330,45 @@ class Planner {
     u.bone_offset = bone_offset(solved, 0);
     u.joint_offset = bone_offset(solved, u.of_middle ? 1 : 0);
     set_limb(u, solved);
+    u.swivels = swivels(solved);
+  }
+
+  bool is_above(NodeId above, NodeId id) const {
+    while (id.valid() && id != above) id = scene::transform_above(scene_, id);
+    return id.valid();
+  }
+
+  int aim_of(NodeId joint) const {
+    for (std::size_t i = 0; i < aims_.size(); ++i)
+      if (aims_[i].id == joint) return static_cast<int>(i);
+    return -1;
+  }
+
+  /// What lengthens the bones of a limb, in FK or in IK as it stands.
+  void bind_lengths(const MatchLimb& limb) {
+    const auto solved = solvers_.find(limb.solver.index);
+    const bool ik = solved != solvers_.end() && solved->second.start >= 0;
+    bind_length(limb, ik ? "upper_length" : "fk_upper_length", 0);
+    bind_length(limb, ik ? "lower_length" : "fk_lower_length", 1);
+  }
+
+  void bind_length(const MatchLimb& limb, std::string_view meaning, std::size_t bone) {
+    const auto found = limb.by.find(meaning);
+    if (found == limb.by.end() || nodes_[found->second.node.index] < 0) return;
+    const NodeId before = limb.joints[bone], joint = limb.joints[bone + 1];
+    const int upper = aim_of(before), lower = aim_of(joint);
+    if (upper < 0 || lower < 0 || bake::is_driven(scene_, found->second)) return;
+    if (!is_above(before, joint)) return;  // it hangs elsewhere, and is moved from there
+    Unknown& u = unknowns_.emplace_back();
+    u.node = found->second.node;
+    u.rule = Unknown::Rule::length;
+    u.attribute = found->second;
+    u.upper = upper;
+    u.lower = lower;
+    u.bone = math::inverse(scene_.rest_world(before)) * scene_.rest_world(joint).origin;
+    const auto& attribute = scene_[u.node].user[u.attribute.attribute - scene::kUserAttributes];
+    u.least = attribute.min.value_or(0);
+    u.is_single = scene::transform_above(scene_, joint) == before;
   }
 
   /// Rest rotation of a limb's joint seen from its bone's frame.
@@ -280,6 +387,7 @@ class Planner {
   const std::vector<Aim>& aims_;
   Diagnostics& diagnostics_;
   std::set<std::pair<int, anim::Path>> stay_;  // of joints' own transforms
+  std::vector<MatchLimb> limbs_;
   std::vector<eval::Setting> settings_;
   std::vector<Unknown> unknowns_;
   std::map<NodeId, std::size_t> by_node_;

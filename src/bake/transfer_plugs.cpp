@@ -54,6 +54,7 @@ std::vector<Plug> needs_of(const scene::Scene& scene, const Plug& plug) {
   }
   if (!is_transform(scene, plug.node)) {
     const eval::KindRule& rule = eval::rule(scene[plug.node].kind);
+    if (rule.reads_of) return rule.reads_of(scene, plug);
     return rule.reads ? rule.reads(scene, plug.node) : out;
   }
   if (plug.attribute == transform::kWorld) {

@@ -13,8 +13,8 @@ namespace rigc::bake {
 
 /// [unknowns][frames], rotations continuous.
 struct Solution {
-  std::vector<std::vector<math::Trs>> locals;  ///< empty for twists
-  std::vector<std::vector<double>> numbers;    ///< of twists, empty for others
+  std::vector<std::vector<math::Trs>> locals;  ///< empty for attributes
+  std::vector<std::vector<double>> numbers;    ///< of attributes, empty for others
 };
 
 struct SolveInput {
@@ -26,6 +26,11 @@ struct SolveInput {
   const std::vector<double>& times;  ///< seconds
   const Solution* others = nullptr;  ///< at other times of the same clip, with which it is merged
 };
+
+/// Bones that are lengthened keep their direction. Where a clip moves a joint to the side of its
+/// bone, the bone points to it: the joints' places count more than a small turn of the one above.
+/// `worlds`: of aims, [aims][frames].
+void point_bones(const TransferPlan& plan, std::vector<std::vector<math::Affine>>& worlds);
 
 std::optional<Solution> solve(const scene::Scene& scene, const SolveInput& input, Threads& threads,
                               Diagnostics& diagnostics);

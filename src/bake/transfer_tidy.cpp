@@ -10,6 +10,8 @@ namespace {
 
 /// What counts as rounding in an angle.
 constexpr double kDegreeNoise = 2e-5;
+/// And in a length, of true lengths.
+constexpr double kLengthNoise = 3e-7;
 
 void copy(const math::Trs& from, anim::Path path, math::Trs& to) {
   if (path == anim::Path::translation) to.translation = from.translation;
@@ -27,12 +29,12 @@ void Tidy::make_continuous(const Unknown& u, std::vector<math::Trs>& locals) con
   }
 }
 
-void Tidy::make_continuous(const Unknown& twist, std::vector<double>& numbers) const {
+void Tidy::make_continuous(const Unknown& u, std::vector<double>& numbers) const {
   if (numbers.empty()) return;
-  const double turn = 360 * twist.per_degree;
-  double before = scene_.number(twist.attribute);
+  const double turn = 360 * u.per_degree;
+  double before = scene_.number(u.attribute);
   for (double& number : numbers) {
-    number += std::nearbyint((before - number) / turn) * turn;
+    if (!is_length(u)) number += std::nearbyint((before - number) / turn) * turn;
     number = before = static_cast<double>(static_cast<float>(number));
   }
 }
@@ -61,7 +63,7 @@ void Tidy::settle_path(const Unknown& u, anim::Path path, std::vector<math::Trs>
   }
 }
 
-void Tidy::settle(const Unknown& twist, std::vector<double>& numbers,
+void Tidy::settle(const Unknown& u, std::vector<double>& numbers,
                   const std::vector<double>* others) const {
   if (numbers.empty()) return;
   const auto all_near = [](const std::vector<double>& list, double still, double noise) {
@@ -69,10 +71,10 @@ void Tidy::settle(const Unknown& twist, std::vector<double>& numbers,
                        [&](double number) { return std::abs(number - still) <= noise; });
   };
   std::vector<double> choices;
-  if (!others) choices = {scene_.number(twist.attribute), numbers.front()};
+  if (!others) choices = {scene_.number(u.attribute), numbers.front()};
   if (others && all_near(*others, others->front(), 0)) choices = {others->front()};
   for (const double still : choices) {
-    if (!all_near(numbers, still, kDegreeNoise)) continue;
+    if (!all_near(numbers, still, is_length(u) ? kLengthNoise : kDegreeNoise)) continue;
     std::fill(numbers.begin(), numbers.end(), still);
     return;
   }

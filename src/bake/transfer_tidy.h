@@ -17,13 +17,13 @@ class Tidy {
   /// Of a rotation and its negative takes the one nearer to the frame before, and so of turns by
   /// 360 degrees more or less.
   void make_continuous(const Unknown& u, std::vector<math::Trs>& locals) const;
-  void make_continuous(const Unknown& twist, std::vector<double>& numbers) const;
+  void make_continuous(const Unknown& u, std::vector<double>& numbers) const;
 
   /// What only rounding moves stays, where the scene has it or where it begins: it gets no keys.
   /// `others`: of frames that were settled before; then it stays where those do.
   void settle(const Unknown& u, std::vector<math::Trs>& locals,
               const std::vector<math::Trs>* others) const;
-  void settle(const Unknown& twist, std::vector<double>& numbers,
+  void settle(const Unknown& u, std::vector<double>& numbers,
               const std::vector<double>* others) const;
 
  private:

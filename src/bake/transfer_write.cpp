@@ -44,7 +44,7 @@ class Writer {
 
   void add(const SwitchValue& value) { write_numbers(value.attribute, {value.value}); }
 
-  void add_twist(const Unknown& u, const std::vector<double>& numbers) {
+  void add_number(const Unknown& u, const std::vector<double>& numbers) {
     const auto is_at = [&](double value) {
       return std::all_of(numbers.begin(), numbers.end(), [&](double n) { return n == value; });
     };
@@ -176,8 +176,8 @@ Transferred write_channels(const WriteInput& input, TransferReport& report) {
   for (const SwitchValue& value : input.switches) writer.add(value);
   for (std::size_t i = 0; i < input.plan.unknowns.size(); ++i) {
     const Unknown& u = input.plan.unknowns[i];
-    if (is_twist(u))
-      writer.add_twist(u, input.solution.numbers[i]);
+    if (is_number(u))
+      writer.add_number(u, input.solution.numbers[i]);
     else
       writer.add(u, input.solution.locals[i]);
   }

@@ -87,7 +87,7 @@ class Matcher {
           const tags::TaggedSkeleton& skeleton, const catalog::Catalogue& catalogue)
       : sources_(sources), fresh_(fresh), names_(skeleton), catalogue_(catalogue) {
     out_.resize(sources.size());
-    taken_.assign(fresh.size(), false);
+    held_.assign(fresh.size(), Held::by_none);
     for (std::size_t i = 0; i < sources.size(); ++i)
       by_identity_[in_any_rig(sources[i].identity)].push_back(i);
     for (const NodeId id : fresh.nodes())
@@ -97,25 +97,35 @@ class Matcher {
   std::vector<std::optional<Match>> run() {
     by_identity();
     by_was();
-    by_replaces();
-    by_label();
+    for (const bool orphans : {false, true}) by_replaces(orphans);
+    for (const bool orphans : {false, true}) by_label(orphans);
     return std::move(out_);
   }
 
  private:
-  /// Gives a node to all sources of one identity that can have it; false where there are none.
+  /// Who has a node. An orphan is a few keys that had no place in the old rig: it goes to a node
+  /// that none has, and does not keep it from what plays in the old rig. Where both have the same
+  /// property, the carrier lets the orphan wait on.
+  enum class Held : std::uint8_t { by_none, by_orphan, by_node };
+
+  /// Gives a node to all sources of one identity that can have it; true where a node of the old rig
+  /// has it now.
   bool give(const Identity& identity, NodeId to, Rule rule) {
     const auto found = by_identity_.find(identity);
     if (found == by_identity_.end()) return false;
-    bool given = false;
+    const Held before = held_[to.index];
+    Held& held = held_[to.index];
     for (const std::size_t source : found->second) {
-      if (out_[source] || !fits(sources_[source], to)) continue;
+      const Held by = is_orphan(source) ? Held::by_orphan : Held::by_node;
+      const bool open = before == Held::by_none || by > before;
+      if (out_[source] || !open || !fits(sources_[source], to)) continue;
       out_[source] = Match{to, rule};
-      given = true;
+      held = std::max(held, by);
     }
-    if (given) taken_[to.index] = true;
-    return given;
+    return held == Held::by_node;
   }
+
+  bool is_orphan(std::size_t source) const { return !sources_[source].node.valid(); }
 
   /// Joints stay joints, and meshes meshes: they are other things in a file.
   bool fits(const Source& source, NodeId to) const {
@@ -126,7 +136,7 @@ class Matcher {
   }
 
   void drop_taken() {
-    std::erase_if(open_, [&](NodeId id) { return taken_[id.index]; });
+    std::erase_if(open_, [&](NodeId id) { return held_[id.index] == Held::by_node; });
   }
 
   void by_identity() {
@@ -144,12 +154,12 @@ class Matcher {
   }
 
   /// A node for a joint succeeds the one that another module made for that joint.
-  void by_replaces() {
+  void by_replaces(bool orphans) {
     using Key = std::tuple<JointKey, std::string, std::string, std::uint32_t>;
     std::map<Key, std::vector<std::size_t>> made;
     for (std::size_t i = 0; i < sources_.size(); ++i) {
       const Identity& identity = sources_[i].identity;
-      if (!out_[i] && !sources_[i].module.empty())
+      if (!out_[i] && is_orphan(i) == orphans && !sources_[i].module.empty())
         made[{identity.owner, sources_[i].module, identity.role, identity.counter}].push_back(i);
     }
     if (made.empty()) return;
@@ -181,7 +191,7 @@ class Matcher {
     });
   }
 
-  void by_label() {
+  void by_label(bool orphans) {
     using Key = std::tuple<std::string, std::string, scene::Kind, std::string>;
     std::map<Key, std::vector<NodeId>> nodes;
     for (const NodeId id : fresh_.nodes())
@@ -191,14 +201,15 @@ class Matcher {
             .push_back(id);
     std::map<Key, std::vector<std::size_t>> lost;
     for (std::size_t i = 0; i < sources_.size(); ++i)
-      if (!out_[i] && !sources_[i].ids.label.empty() && sources_[i].kind == scene::Kind::control)
+      if (!out_[i] && is_orphan(i) == orphans && !sources_[i].ids.label.empty() &&
+          sources_[i].kind == scene::Kind::control)
         lost[{sources_[i].ids.local, sources_[i].ids.label, sources_[i].kind,
               sources_[i].identity.role}]
             .push_back(i);
     for (const auto& [key, from] : lost) {
       const auto to = nodes.find(key);
       const bool single = to != nodes.end() && to->second.size() == 1 && same_identity(from);
-      if (single && !taken_[to->second.front().index])
+      if (single)
         give(in_any_rig(sources_[from.front()].identity), to->second.front(), Rule::label);
     }
   }
@@ -208,7 +219,7 @@ class Matcher {
   Names names_;
   const catalog::Catalogue& catalogue_;
   std::vector<std::optional<Match>> out_;
-  std::vector<bool> taken_;  ///< by node of `fresh_`
+  std::vector<Held> held_;  ///< by node of `fresh_`
   std::vector<NodeId> open_;
   std::map<Identity, std::vector<std::size_t>> by_identity_;
 };

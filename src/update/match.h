@@ -49,7 +49,8 @@ struct Match {
 };
 
 /// By source: the node of `fresh` that it became, or nothing. No node is given to two sources but
-/// those of one identity. The rig's number does not count.
+/// those of one identity; but an orphan keeps no node of the old rig from its place, and both have
+/// it then. The rig's number does not count.
 std::vector<std::optional<Match>> match(const std::vector<Source>& sources,
                                         const scene::Scene& fresh,
                                         const tags::TaggedSkeleton& skeleton,

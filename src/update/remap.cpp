@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "update/settle.h"
+
 namespace rigc::update {
 namespace {
 
@@ -105,14 +107,16 @@ std::optional<scene::Value> converted(const scene::Value& value, const Property&
                                       const Conversion& conversion) {
   if (!changes_values(property, destination, conversion)) return value;
   if (const auto* number = std::get_if<double>(&value))
-    return *number * destination.factor + destination.offset;
-  if (const auto* rotation = std::get_if<math::Quat>(&value)) return conversion.rotation(*rotation);
+    return settled(*number, *number * destination.factor + destination.offset);
+  if (const auto* rotation = std::get_if<math::Quat>(&value))
+    return settled(*rotation, conversion.rotation(*rotation));
   const auto* vector = std::get_if<math::Vec3>(&value);
   if (!vector) return std::nullopt;
-  if (property.path == anim::Path::translation) return conversion.translation(*vector);
+  if (property.path == anim::Path::translation)
+    return settled(*vector, conversion.translation(*vector));
   const bool uniform = vector->x == vector->y && vector->x == vector->z;
   if (!conversion.keeps_scale() && !uniform) return std::nullopt;
-  return conversion.scale(*vector);
+  return settled(*vector, conversion.scale(*vector));
 }
 
 bool convert(anim::Curve& curve, const Property& property, const Destination& destination,

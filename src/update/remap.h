@@ -60,7 +60,8 @@ class Remap {
   std::vector<Conversion> conversions_;
 };
 
-/// A value of a property, converted for its destination; nothing where it cannot be said there.
+/// A value of a property, converted for its destination; nothing where it cannot be said there. It
+/// is the same to the bit after ways there and back (settle.h).
 std::optional<scene::Value> converted(const scene::Value& value, const Property& property,
                                       const Destination& destination, const Conversion& conversion);
 /// The same for all keys of a curve; false where it stays as it is because it cannot be said.

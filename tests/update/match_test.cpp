@@ -344,4 +344,33 @@ TEST_CASE("match: a rig built twice from one template matches node by node") {
   }
 }
 
+TEST_CASE("match: an orphan waits at its node without keeping what plays from it") {
+  // A limb had an attribute that the chain in its place has not; now the limb is back.
+  Made old, fresh;
+  fresh.add(identity(kA, kA, "limb", "fk"), "heir");
+  old.add(identity(kA, kA, "ctrl"));
+  Source orphan = old.sources().front();
+  orphan.identity = identity(kA, kA, "limb", "fk");
+  orphan.module = "heir";
+  orphan.node = {};
+  const auto skeleton = joints({kA});
+  const catalog::Catalogue catalogue = catalogue_with_heir();
+  const auto run = [&](std::vector<Source> sources) {
+    return text(update::match(sources, fresh.scene, skeleton, catalogue));
+  };
+  std::vector<Source> sources = old.sources();
+  sources.push_back(orphan);
+  CHECK(run(sources) == "0:replaces 0:identity ");
+  // Another orphan of the same kind has no right to it.
+  Source other = orphan;
+  other.identity = identity(kA, kA, "ctrl");
+  other.module = "control";
+  CHECK(run({orphan, other}) == "0:identity - ");
+  CHECK(run({other}) == "0:replaces ");
+  // And none comes to a node that something of the old rig has by a later rule.
+  CHECK(run({old.sources().front(), other}) == "0:replaces 0:replaces ");
+  other.identity = identity(kA, kB, "more");
+  CHECK(run({old.sources().front(), other}) == "0:replaces - ");
+}
+
 }  // namespace rigc

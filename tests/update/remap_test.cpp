@@ -4,6 +4,9 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <random>
+
 #include "support/rig.h"
 
 namespace rigc {
@@ -184,6 +187,48 @@ TEST_CASE("remap: values without keys are converted as keys are") {
         scene::Value(math::Quat{0.5, -0.5, 0.5, 0.5}));
   // An orphan keeps its numbers until it is back.
   CHECK(update::converted(v, translation, Destination(), right_angle) == v);
+}
+
+TEST_CASE("remap: values that go there and back are the same to the bit, whatever they were") {
+  std::mt19937_64 random(3);
+  const auto next = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
+  const auto vector = [&] {
+    const double x = next(), y = next(), z = next();
+    return math::Vec3{x, y, z};
+  };
+  const auto turn = [&] {
+    const math::Vec3 axis = vector();
+    return math::axis_angle(math::normalised(axis), 3 * next());
+  };
+  const auto frame = [&] {
+    update::Frame out;
+    out.space = math::matrix(turn());
+    out.rest.translation = vector() * 50.0;
+    out.rest.rotation = turn();
+    return out;
+  };
+  Destination there;
+  there.kind = Kind::property;
+  const Property translation{Path::translation, {}}, rotation{Path::rotation, {}};
+  for (int i = 0; i < 500; ++i) {
+    const update::Frame a = frame(), b = frame();
+    const Conversion to(a, b), from(b, a);
+    const auto trip = [&](const scene::Value& value, const Property& property) {
+      const auto away = update::converted(value, property, there, to);
+      const auto back = update::converted(*away, property, there, from);
+      CHECK(update::converted(*back, property, there, to) == away);
+      CHECK(update::converted(*update::converted(*back, property, there, to), property, there,
+                              from) == back);
+      return *back;
+    };
+    const math::Vec3 v = vector() * 100.0;
+    CHECK(math::length(std::get<math::Vec3>(trip(v, translation)) - v) < 1e-11);
+    const auto single = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+    const math::Vec3 floats{single(v.x), single(v.y), single(v.z)};
+    CHECK(trip(floats, translation) == scene::Value(floats));
+    const math::Quat q = turn();
+    CHECK(std::abs(math::dot(std::get<math::Quat>(trip(q, rotation)), q)) > 1 - 1e-14);
+  }
 }
 
 }  // namespace rigc
