@@ -107,8 +107,12 @@ class Build final : public Command {
   void declare(Options& options) override {
     declare_build(options, request_);
     options.text("-o,--output", "OUT.glb", out_, true, "File to write (.glb or .gltf)");
+    options.text("--guides", "GUIDES.yaml", request_.guides, false,
+                 "Joints that were moved and controls that were edited: see `rigc guides`");
     options.flag("--skeleton-only", request_.skeleton_only,
                  "Make the skeleton with its tags, run nothing");
+    options.flag("--split-weights", request_.split_weights,
+                 "Let the model's skins share their weights with twist joints that the rig makes");
     declare_timing(options, timing_);
     declare_paths(options, request_.paths);
   }

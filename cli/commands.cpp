@@ -13,6 +13,7 @@ std::vector<std::unique_ptr<Command>> commands() {
   table.push_back(make_strip());
   table.push_back(make_prune());
   table.push_back(make_map());
+  table.push_back(make_guides());
   table.push_back(make_check());
   table.push_back(make_plan());
   table.push_back(make_status());
@@ -20,6 +21,7 @@ std::vector<std::unique_ptr<Command>> commands() {
   table.push_back(make_query());
   table.push_back(make_bake());
   table.push_back(make_transfer());
+  table.push_back(make_match());
   table.push_back(make_merge());
   table.push_back(make_rename());
   table.push_back(make_extract());

@@ -35,6 +35,8 @@ class Rebuild final : public Command {
       options.list("--feature", "[GROUP/]NAME[:SWITCH]=on|off", request_.features,
                    "Turn a feature on or off");
       options.list("--group", "GROUP=on|off", request_.groups, "Turn a local group on or off");
+      options.text("--guides", "GUIDES.yaml", request_.guides, false,
+                   "Joints that were moved and controls that were edited: see `rigc guides`");
       options.flag("--strict", request_.strict, "Fail a file whose keys would not all find a node");
       options.number("--tolerance", "MM", request_.tolerance_mm,
                      "Fail a file where a joint moves by more than this");
@@ -69,6 +71,7 @@ class Rebuild final : public Command {
       for (const std::string& text : *list) w.value(text);
       w.end_array();
     }
+    if (!request_.guides.empty()) w.member("guides", request_.guides);
     write_members(w, request_);
     return w.end_object().take();
   }

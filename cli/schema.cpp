@@ -15,10 +15,10 @@ class Schema final : public Command {
             "rigc schema template --modules my_modules", "rigc schema ik_fk_limb"};
   }
   void declare(Options& options) override {
-    options.positional(
-        "NAME", name_, true,
-        "template, map or module (a file that declares one) for files of these; RIGC_rig for "
-        "the extension of rig files; a module's name for its `with:`");
+    options.positional("NAME", name_, true,
+                       "template, map, guides or module (a file that declares one) for files of "
+                       "these; RIGC_rig for "
+                       "the extension of rig files; a module's name for its `with:`");
     declare_modules(options, paths_);
   }
   void run(Session& session) override {

@@ -15,6 +15,7 @@
 #include "gltf/clips.h"
 #include "gltf/rig.h"
 #include "gltf/slim.h"
+#include "pipeline/bake_morphs.h"
 #include "pipeline/build.h"
 #include "pipeline/clip_choice.h"
 #include "pipeline/codes.h"
@@ -31,13 +32,16 @@ struct Bakeable {
   const gltf::Rig* rig;
   std::vector<bake::Standing> standings;
   std::set<int> controls;  ///< glTF nodes that are not bones: what animators key
+  std::vector<DrivenMorphs> morphs;
 };
 
-std::vector<Bakeable> look_at_rigs(const gltf::Slim& slim, const std::vector<gltf::Rig>& rigs) {
+std::vector<Bakeable> look_at_rigs(const gltf::File& file, const gltf::Slim& slim,
+                                   const std::vector<gltf::Rig>& rigs, Diagnostics& diagnostics) {
   std::vector<Bakeable> out;
   for (const gltf::Rig& rig : rigs) {
     Bakeable& bakeable = out.emplace_back();
     bakeable.rig = &rig;
+    bakeable.morphs = find_driven_morphs(file, slim, rig, diagnostics);
     for (const gltf::Standing& s : gltf::standings(slim, rig))
       bakeable.standings.push_back({s.base, s.between, s.local, s.points});
     for (scene::NodeId id : rig.scene.nodes()) {
@@ -125,9 +129,9 @@ struct ClipResult {
 /// Bakes one clip over every rig whose controls it animates.
 class ClipBaker {
  public:
-  ClipBaker(const BakeRequest& request, const bake::Options& options,
-            const std::vector<Bakeable>& rigs)
-      : request_(request), options_(options), rigs_(rigs) {}
+  ClipBaker(const BakeRequest& request, const bake::Options& options, const gltf::File& file,
+            const gltf::Slim& slim, const std::vector<Bakeable>& rigs)
+      : request_(request), options_(options), file_(file), slim_(slim), rigs_(rigs) {}
 
   ClipResult bake(const anim::Clip& clip, Diagnostics& diagnostics) const {
     const trace::Span span("bake clip", trace::kStage, "clip", clip.name);
@@ -164,6 +168,11 @@ class ClipBaker {
     if (!joints) return false;
     std::vector<anim::Channel>& channels = result.change.clip.channels;
     std::move(joints->channels.begin(), joints->channels.end(), std::back_inserter(channels));
+    auto morphs = bake_morphs(file_, slim_, rig, bakeable.morphs, clip, report.times, diagnostics);
+    if (!morphs) return false;
+    report.channels += morphs->size();
+    for (const anim::Channel& channel : *morphs) report.keys += channel.curve.times->size();
+    std::move(morphs->begin(), morphs->end(), std::back_inserter(channels));
     driven.insert(report.driven.begin(), report.driven.end());
     result.foreign += count_foreign(rig, clip);
     add_report(report, rig, result.baked);
@@ -182,6 +191,8 @@ class ClipBaker {
 
   const BakeRequest& request_;
   const bake::Options& options_;
+  const gltf::File& file_;
+  const gltf::Slim& slim_;
   const std::vector<Bakeable>& rigs_;
 };
 
@@ -238,8 +249,8 @@ std::optional<Baked> bake_file(const BakeRequest& request, const std::string& ou
   const auto chosen = choose_clips(request.file, request.clips, clips->clips, diagnostics);
   if (!chosen) return std::nullopt;
 
-  const std::vector<Bakeable> bakeable = look_at_rigs(*slim, *rigs);
-  const ClipBaker baker(request, *options, bakeable);
+  const std::vector<Bakeable> bakeable = look_at_rigs(*file, *slim, *rigs, diagnostics);
+  const ClipBaker baker(request, *options, *file, *slim, bakeable);
   std::vector<ClipResult> baked =
       bake_clips(baker, clips->clips, *chosen, request.threads, diagnostics);
   gltf::Patch patch(*file);

@@ -11,7 +11,10 @@
 #include "base/text.h"
 #include "base/trace.h"
 #include "gltf/skeletons.h"
+#include "gltf/vertices.h"
+#include "pipeline/bake_morphs.h"
 #include "pipeline/codes.h"
+#include "pipeline/guides.h"
 #include "tags/settings.h"
 #include "templates/expand.h"
 #include "templates/library.h"
@@ -44,6 +47,7 @@ bool read_settings(const BuildRequest& request, const templates::Expanded& expan
     good = good && group;
   }
   settings.rest = request.rest;
+  settings.split_weights = request.split_weights;
   return good;
 }
 
@@ -133,6 +137,14 @@ std::optional<tags::TaggedSkeleton> fit_to_model(const BuildRequest& request,
   return templates::fit(expanded, *skeleton, *map, out.fit, diagnostics);
 }
 
+bool use_guides(const BuildRequest& request, const Prepared& prepared,
+                tags::TaggedSkeleton& skeleton, Diagnostics& diagnostics) {
+  const auto guides = templates::open_guides(request.guides, prepared.catalogue, diagnostics);
+  return guides && check_guides_of(*guides, prepared.names, diagnostics) &&
+         apply_guides(*guides, *prepared.expanded, !request.model.empty(), prepared.catalogue,
+                      skeleton, diagnostics);
+}
+
 }  // namespace
 
 std::optional<Prepared> prepare(const BuildRequest& request, Diagnostics& diagnostics) {
@@ -142,12 +154,17 @@ std::optional<Prepared> prepare(const BuildRequest& request, Diagnostics& diagno
   const templates::Template* main = library.open(request.template_file, diagnostics);
   if (!main) return std::nullopt;
   out.needs_outside = !main->needs.empty();
-  const auto expanded = templates::expand(*main, library, out.catalogue, diagnostics);
-  if (!expanded) return std::nullopt;
+  out.names = {main->name};
+  out.names.insert(out.names.end(), main->was.begin(), main->was.end());
+  out.centimetres = main->metres_per_unit != 1;
+  out.expanded = templates::expand(*main, library, out.catalogue, diagnostics);
+  if (!out.expanded) return std::nullopt;
   auto skeleton = request.model.empty()
-                      ? templates::place(*expanded, diagnostics)
-                      : fit_to_model(request, *expanded, library.folders(), out, diagnostics);
-  if (!skeleton || !read_settings(request, *expanded, out.settings, diagnostics))
+                      ? templates::place(*out.expanded, diagnostics)
+                      : fit_to_model(request, *out.expanded, library.folders(), out, diagnostics);
+  if (!skeleton || !read_settings(request, *out.expanded, out.settings, diagnostics))
+    return std::nullopt;
+  if (!request.guides.empty() && !use_guides(request, out, *skeleton, diagnostics))
     return std::nullopt;
   if (!request.global.empty()) tags::set_global(*skeleton, request.global);
   out.declared = *std::move(skeleton);
@@ -204,11 +221,12 @@ void record_commands(const Compilation& compilation, const processor::Processor&
 }  // namespace
 
 std::optional<gltf::Rig> run_commands(const Compilation& compilation,
-                                      const catalog::Catalogue& catalogue, std::size_t& skipped,
+                                      const catalog::Catalogue& catalogue,
+                                      const tags::Geometry& geometry, std::size_t& skipped,
                                       Diagnostics& diagnostics) {
   const trace::Span span("run commands");
   processor::Processor processor(compilation.skeleton, compilation.commands, catalogue,
-                                 compilation.rig_id);
+                                 compilation.rig_id, geometry);
   if (!processor.go_to(compilation.end, diagnostics)) return std::nullopt;
   gltf::Rig rig;
   rig.id = compilation.rig_id;
@@ -228,11 +246,13 @@ std::optional<Built> build(const BuildRequest& request, const std::string& out,
   if (!prepared) return std::nullopt;
 
   Built built;
-  auto rig = run_commands(*prepared, prepared->catalogue, built.skipped, diagnostics);
+  const auto geometry = prepared->model ? gltf::geometry_of(*prepared->model) : tags::Geometry{};
+  auto rig = run_commands(*prepared, prepared->catalogue, geometry, built.skipped, diagnostics);
   if (!rig) return std::nullopt;
   built.rig = *std::move(rig);
   built.fit = std::move(prepared->fit);
   if (!check_evaluates(built.rig.scene, diagnostics)) return std::nullopt;
+  if (prepared->model) report_missing_morphs(*prepared->model, built.rig, diagnostics);
 
   const gltf::File empty = gltf::empty_file();
   const gltf::File& file = prepared->model ? *prepared->model : empty;

@@ -25,7 +25,9 @@ struct BuildRequest {
   std::vector<std::string> groups;    ///< GROUP=on|off
   std::vector<std::string> only;      ///< groups whose commands run; empty: all
   std::string until;                  ///< JOINT/COMMAND
+  std::string guides;                 ///< file of moved joints and edited controls; empty: none
   bool skeleton_only = false;
+  bool split_weights = false;  ///< the skins of the model share weights with twist joints
   Paths paths;
 };
 
@@ -43,10 +45,12 @@ struct Compilation {
 bool list_commands(Compilation& compilation, const BuildRequest& request,
                    const catalog::Catalogue& catalogue, Diagnostics& diagnostics);
 
-/// Runs the commands; nodes of the file and `owned` are still to be found. `skipped`: commands that
-/// did not run because an optional selector was empty.
+/// Runs the commands; nodes of the file and `owned` are still to be found. `geometry`: of the
+/// character's meshes, empty without. `skipped`: commands that did not run because an optional
+/// selector was empty.
 std::optional<gltf::Rig> run_commands(const Compilation& compilation,
-                                      const catalog::Catalogue& catalogue, std::size_t& skipped,
+                                      const catalog::Catalogue& catalogue,
+                                      const tags::Geometry& geometry, std::size_t& skipped,
                                       Diagnostics& diagnostics);
 
 /// Everything up to the commands: what `plan`, `check` and `build` share.
@@ -55,6 +59,9 @@ struct Prepared : Compilation {
   std::optional<gltf::File> model;
   int ancestor = -1;           ///< glTF node that the rig goes under
   bool needs_outside = false;  ///< the template is a part: its commands name groups of an outer one
+  std::vector<std::string> names;  ///< of the template: its own first, then earlier ones
+  bool centimetres = false;        ///< the template's unit
+  std::optional<templates::Expanded> expanded;
   templates::FitReport fit;
 };
 std::optional<Prepared> prepare(const BuildRequest& request, Diagnostics& diagnostics);

@@ -104,6 +104,10 @@ inline constexpr Code kStrangers{
     854, Severity::warning, "nodes that the rig does not have",
     "The edited file has nodes of a rig, or of a version of it, that the file given by --rig does "
     "not have. What was done to them is not adopted."};
+inline constexpr Code kNoMorphTarget{
+    859, Severity::warning, "no such morph target",
+    "A `morph_targets` command names targets as the model does: in `extras.targetNames` of its "
+    "meshes, those that the rig's joints move. What it drives is not seen on this model."};
 
 inline constexpr const Code* kPipelineCodes[] = {
     &kNoSkeleton,     &kSeveralSkeletons, &kNoSuchSkeleton,   &kHasRig,
@@ -112,6 +116,6 @@ inline constexpr const Code* kPipelineCodes[] = {
     &kLockedKeys,     &kNothingFits,      &kNoAttributeKeyed, &kDrivenKeyed,
     &kNotAControl,    &kOutsideLimits,    &kNodesMoved,       &kNoIdentity,
     &kCannotPin,      &kNothingToCheck,   &kWhichRig,         &kNotATemplateName,
-    &kNothingToAdopt, &kCopiedNode,       &kStrangers};
+    &kNothingToAdopt, &kCopiedNode,       &kStrangers,        &kNoMorphTarget};
 
 }  // namespace rigc::pipeline::codes

@@ -28,6 +28,22 @@ std::vector<std::string> groups_of(const Rig& rig) {
   return groups;
 }
 
+/// Settings of a feature in the whole rig, or in some of its groups and switches.
+std::vector<tags::Settings::Feature> settings_of(const Rig& rig, const std::string& feature,
+                                                 bool of_parts) {
+  std::vector<tags::Settings::Feature> out;
+  for (const tags::Settings::Feature& set : rig.settings.features)
+    if (set.name == feature && of_parts == !(set.group.empty() && set.switch_name.empty()))
+      out.push_back(set);
+  return out;
+}
+
+/// Whether this rig has it: as it was set, else as its template declares it.
+bool is_on(const Rig& rig, const tags::FeatureDeclaration& feature) {
+  const auto whole = settings_of(rig, feature.name, false);
+  return whole.empty() ? feature.on : whole.back().on;
+}
+
 void write_features(json::Writer& w, const Rig& rig) {
   w.key("features").begin_array();
   for (const tags::FeatureDeclaration& feature : rig.skeleton.features) {
@@ -35,11 +51,30 @@ void write_features(json::Writer& w, const Rig& rig) {
         .member("name", feature.name)
         .member("kind", feature.kind)
         .member("title", feature.title);
-    w.member("on", feature.on).key("switches").begin_array();
+    w.member("on", is_on(rig, feature)).key("switches").begin_array();
     for (const std::string& name : feature.switches) w.value(name);
+    w.end_array().key("set").begin_array();
+    for (const tags::Settings::Feature& set : settings_of(rig, feature.name, true))
+      w.begin_object()
+          .member("group", set.group)
+          .member("switch", set.switch_name)
+          .member("on", set.on)
+          .end_object();
     w.end_array().end_object();
   }
   w.end_array();
+}
+
+/// Such as "on, off in arm_l".
+std::string feature_text(const Rig& rig, const tags::FeatureDeclaration& feature) {
+  const auto word = [](bool on) { return on ? "on" : "off"; };
+  std::string out = word(is_on(rig, feature));
+  for (const tags::Settings::Feature& set : settings_of(rig, feature.name, true)) {
+    out += fmt::format(", {}", word(set.on));
+    if (!set.switch_name.empty()) out += fmt::format(" for {}", printable(set.switch_name));
+    if (!set.group.empty()) out += fmt::format(" in {}", printable(set.group));
+  }
+  return out;
 }
 
 void write_joints(json::Writer& w, const Rig& rig) {
@@ -124,7 +159,7 @@ std::string as_text(const std::vector<Rig>& rigs, const gltf::ClipFile& clips) {
     out += fmt::format("  groups    {}\n", join(groups_of(rig), " "));
     for (const tags::FeatureDeclaration& feature : rig.skeleton.features) {
       out += fmt::format("  feature   {} ({}) {}\n", feature.name, feature.kind,
-                         feature.on ? "on" : "off");
+                         feature_text(rig, feature));
     }
     out += groups_text(rig);
     out += orphans_text(rig, clips);

@@ -13,6 +13,7 @@
 #include "pipeline/update_codes.h"
 #include "tags/settings.h"
 #include "templates/fit.h"
+#include "templates/guides.h"
 #include "update/skeleton.h"
 
 namespace rigc::pipeline {
@@ -197,6 +198,8 @@ std::optional<TaggedSkeleton> place_again(const std::vector<const templates::Exp
     else
       out = std::move(fresh);
   }
+  if (out)
+    templates::keep_control_edits(*out, old.skeleton, update::counterparts(*out, old.skeleton));
   if (out && !take_skeleton) update::keep_placements(*out, old.skeleton);
   return out;
 }

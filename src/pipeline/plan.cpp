@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/text.h"
+#include "gltf/vertices.h"
 #include "selector/selector.h"
 
 namespace rigc::pipeline {
@@ -124,7 +125,9 @@ std::optional<std::string> plan(const BuildRequest& request, PlanForm form,
                                 Diagnostics& diagnostics) {
   const auto prepared = prepare(request, diagnostics);
   if (!prepared) return std::nullopt;
-  processor::Processor processor(prepared->skeleton, prepared->commands, prepared->catalogue);
+  processor::Processor processor(
+      prepared->skeleton, prepared->commands, prepared->catalogue, prepared->rig_id,
+      prepared->model ? gltf::geometry_of(*prepared->model) : tags::Geometry{});
   const std::vector<Row> rows = run_rows(*prepared, processor, diagnostics);
   switch (form) {
     case PlanForm::json:

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "eval/kernels/table.h"
 #include "eval/program.h"
+#include "gltf/vertices.h"
 #include "pipeline/codes.h"
 #include "pipeline/plan.h"
 #include "scene/access.h"
@@ -135,7 +136,8 @@ std::optional<std::vector<scene::Scene>> scenes_of(const BuildRequest& request,
   const auto prepared = prepare(request, diagnostics);
   if (!prepared) return std::nullopt;
   std::size_t skipped = 0;
-  auto rig = run_commands(*prepared, prepared->catalogue, skipped, diagnostics);
+  const auto geometry = prepared->model ? gltf::geometry_of(*prepared->model) : tags::Geometry{};
+  auto rig = run_commands(*prepared, prepared->catalogue, geometry, skipped, diagnostics);
   if (!rig) return std::nullopt;
   scenes.push_back(std::move(rig->scene));
   return scenes;

@@ -8,6 +8,7 @@
 
 #include "base/files.h"
 #include "base/text.h"
+#include "pipeline/guides.h"
 #include "pipeline/merge_codes.h"
 #include "pipeline/place_again.h"
 #include "pipeline/update_codes.h"
@@ -96,6 +97,14 @@ struct Opened {
   std::vector<std::size_t> chosen;
 };
 
+/// Whether the guides are of any of the chosen rigs.
+bool check_guides(const templates::Guides& guides, const std::vector<gltf::Rig>& rigs,
+                  const std::vector<std::size_t>& chosen, Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const std::size_t index : chosen) names.push_back(rigs[index].skeleton.name);
+  return check_guides_of(guides, names, diagnostics);
+}
+
 std::optional<Opened> open_rigs(const FileWork& work, const std::vector<std::string>& wanted,
                                 Diagnostics& diagnostics) {
   std::optional<FileLock> lock;
@@ -123,12 +132,20 @@ std::optional<Rebuilt> rebuild(const RebuildRequest& request, const catalog::Cat
   if (!file) return std::nullopt;
   const auto chosen = choose(file->rigs(), request.rigs, work.input, diagnostics);
   if (!chosen) return std::nullopt;
+  std::optional<templates::Guides> guides;
+  if (!request.guides.empty()) {
+    guides = templates::open_guides(request.guides, catalogue, diagnostics);
+    if (!guides || !check_guides(*guides, file->rigs(), *chosen, diagnostics)) return std::nullopt;
+  }
   Rebuilt out;
   for (const std::size_t index : *chosen) {
     const gltf::Rig& old = file->rigs()[index];
     NewRig next;
     next.skeleton = old.skeleton;
     if (!upgrade_tags(old.modules, catalogue, next.skeleton, diagnostics)) return std::nullopt;
+    if (guides && guides->template_name == old.skeleton.name &&
+        !apply_guides_again(*guides, catalogue, next.skeleton, diagnostics))
+      return std::nullopt;
     next.settings = old.settings;
     next.skeleton_only = request.unbuild;
     if (!add_settings(request, next.settings, diagnostics)) return std::nullopt;

@@ -9,6 +9,9 @@
 #include "base/text.h"
 #include "gltf/clips.h"
 #include "gltf/slim.h"
+#include "gltf/vertices.h"
+#include "pipeline/bake_morphs.h"
+#include "pipeline/place_again.h"
 #include "pipeline/update_codes.h"
 
 namespace rigc::pipeline {
@@ -44,6 +47,14 @@ std::vector<std::string> skinned_joints(const gltf::File& file, const gltf::Rig&
       names.push_back(node.name);
   }
   return names;
+}
+
+/// Meshes of the model, not of what a rig made to be seen.
+tags::Geometry model_geometry(const gltf::File& file, const gltf::Rig& rig) {
+  std::set<int> own;
+  for (const scene::NodeId id : rig.scene.nodes())
+    if (!rig.scene[id].is_skeleton()) own.insert(rig.nodes[id.index]);
+  return gltf::geometry_of(file, std::move(own));
 }
 
 bool check_strict(const std::string& path, const RigReport& report, Diagnostics& diagnostics) {
@@ -154,9 +165,11 @@ bool Recompilation::compile(std::size_t index, NewRig next, const catalog::Catal
   request.skeleton_only = next.skeleton_only;
   std::size_t skipped = 0;
   if (!list_commands(compilation, request, catalogue, diagnostics)) return false;
-  auto fresh = run_commands(compilation, catalogue, skipped, diagnostics);
+  auto fresh =
+      run_commands(compilation, catalogue, model_geometry(*file_, old), skipped, diagnostics);
   if (!fresh || !check_evaluates(fresh->scene, diagnostics)) return false;
   compiled->fresh = *std::move(fresh);
+  if (is_fitted(old.skeleton)) report_missing_morphs(*file_, compiled->fresh, diagnostics, &old);
   update::Options remap;
   remap.keep_local = options.keep_local;
   for (const auto& [module, version] : old.modules)

@@ -15,6 +15,7 @@
 #include "modules/codes.h"
 #include "pipeline/batch_codes.h"
 #include "pipeline/codes.h"
+#include "pipeline/match_codes.h"
 #include "pipeline/merge_codes.h"
 #include "pipeline/reference.h"
 #include "pipeline/transfer_codes.h"
@@ -56,6 +57,7 @@ std::vector<const Code*> all_codes() {
   add(pipeline::codes::kUpdateCodes, codes);
   add(pipeline::codes::kBatchCodes, codes);
   add(pipeline::codes::kTransferCodes, codes);
+  add(pipeline::codes::kMatchCodes, codes);
   add(pipeline::codes::kMergeFileCodes, codes);
   std::sort(codes.begin(), codes.end(),
             [](const Code* a, const Code* b) { return a->number < b->number; });

@@ -44,11 +44,15 @@ std::optional<std::string> schema(const std::string& name, const Paths& paths,
     return FormatSchema(catalogue).write(
         templates::map_format(), "rigc map",
         "A map of rigc: which bone of a kind of model is which joint of a template.");
+  if (name == "guides")
+    return FormatSchema(catalogue).write(
+        templates::guides_format(), "rigc guides",
+        "Guides of rigc: where joints are and what controls look like, over a template.");
   if (name == "module")
     return FormatSchema(catalogue).write(catalog::descriptor_format(), "rigc module",
                                          "A module of rigc: what a command takes and makes.");
   if (const catalog::Descriptor* found = catalogue.find(name)) return arguments_schema(*found);
-  std::vector<std::string> names = {"template", "map", "module", "RIGC_rig"};
+  std::vector<std::string> names = {"template", "map", "guides", "module", "RIGC_rig"};
   for (const std::string& module : catalogue.modules()) names.push_back(module);
   diagnostics.report(codes::kNoSuchModule, Place(),
                      fmt::format("there is no schema and no module \"{}\"", printable(name)),

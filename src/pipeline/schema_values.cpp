@@ -37,6 +37,8 @@ class ValueWriter {
   void color();
   void words(const std::vector<std::string>& values);
   void curve();
+  void texts();
+  void table();
   void expression();
   void value();
   /// `type`, or also a text that is a placeholder and nothing else.
@@ -81,6 +83,10 @@ void ValueWriter::write() {
       return text();
     case ParameterType::curve:
       return curve();
+    case ParameterType::texts:
+      return texts();
+    case ParameterType::table:
+      return table();
     case ParameterType::expression:
       return expression();
     case ParameterType::value:
@@ -196,6 +202,22 @@ void ValueWriter::curve() {
   w_.member("minItems", 2).member("maxItems", 3);
   w_.key("items").begin_object();
   write_types(w_, {"number", "string"});
+  w_.end_object().end_object();
+}
+
+void ValueWriter::texts() {
+  write_types(w_, {"array", "string"});
+  w_.member("minItems", 1).key("items").begin_object();
+  write_types(w_, {"string"});
+  w_.end_object();
+}
+
+void ValueWriter::table() {
+  type_or_placeholder("array", "expected a list of rows or `$parameter`");
+  w_.member("minItems", 1).key("items").begin_object();
+  type_or_placeholder("array", "expected a row of numbers or `$parameter`");
+  w_.member("minItems", 1).key("items").begin_object();
+  type_or_placeholder("number", "expected a number or `$parameter`");
   w_.end_object().end_object();
 }
 

@@ -99,6 +99,8 @@ std::vector<TransferredLimb> limbs_of(const std::vector<Target>& targets) {
   return limbs;
 }
 
+}  // namespace
+
 Off off_of(const gltf::Rig& rig, const bake::Deviation& deviation) {
   Off off;
   const tags::Character& character = rig.skeleton.character;
@@ -111,6 +113,8 @@ Off off_of(const gltf::Rig& rig, const bake::Deviation& deviation) {
   if (deviation.most_turned.valid()) off.turned_joint = rig.scene[deviation.most_turned].name;
   return off;
 }
+
+namespace {
 
 void keep_larger(Off& off, const Off& other) {
   if (other.percent > off.percent || off.joint.empty()) {

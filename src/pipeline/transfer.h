@@ -10,6 +10,7 @@
 #include "bake/transfer.h"
 #include "base/diagnostics.h"
 #include "base/threads.h"
+#include "gltf/rig.h"
 
 namespace rigc::pipeline {
 
@@ -36,6 +37,8 @@ struct Off {
   std::string turned_joint;  ///< most turned
   double turned_seconds = 0;
 };
+
+Off off_of(const gltf::Rig& rig, const bake::Deviation& deviation);
 
 /// Two digits, or all of those before the point.
 std::string short_number(double x);

@@ -63,6 +63,7 @@ tags::Settings known_settings(const tags::Settings& settings, const TaggedSkelet
                               std::vector<std::string>& dropped) {
   tags::Settings out;
   out.rest = settings.rest;
+  out.split_weights = settings.split_weights;
   const auto takes = [&](tags::Settings one) {
     TaggedSkeleton copy;  // names only
     copy.features = skeleton.features;

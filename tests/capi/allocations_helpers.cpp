@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "capi/capi_helpers.h"
+#include "support/sanitizers.h"
 
 namespace {
 
@@ -19,13 +20,7 @@ void count_one() {
 
 }  // namespace
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define RIGC_HAS_HOOKS
-#endif
-#endif
-
-#ifdef RIGC_HAS_HOOKS
+#if RIGC_HAS_ADDRESS_SANITIZER || RIGC_HAS_THREAD_SANITIZER
 #include <sanitizer/allocator_interface.h>
 
 namespace {

@@ -136,8 +136,8 @@ std::uint32_t control_of(const rigc_rig* rig, const std::string& local, const st
     const rigc_control_info control = control_at(rig, i);
     if (control.local == local && control.role == role) found.push_back(i);
   }
-  REQUIRE(found.size() == 1);
-  return found[0];
+  REQUIRE(!found.empty());
+  return found[0];  // the first that was made
 }
 
 std::uint32_t joint_of(const rigc_rig* rig, const std::string& local, const std::string& label) {
@@ -146,8 +146,8 @@ std::uint32_t joint_of(const rigc_rig* rig, const std::string& local, const std:
     const rigc_joint_info joint = joint_at(rig, i);
     if (joint.local == local && joint.label == label) found.push_back(i);
   }
-  REQUIRE(found.size() == 1);
-  return found[0];
+  REQUIRE(!found.empty());
+  return found[0];  // the first that was made
 }
 
 std::vector<double> random_rows(const rigc_rig* rig, const rigc_program* program,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
@@ -80,8 +81,17 @@ void check_bad(const fs::path& folder, const std::string& command, const fs::pat
   CHECK(fs::exists(output) == (command == "build" && !errors));
 }
 
+/// Notes for the validator from which model `output` was made: it may have that model's messages.
+void note_model(const fs::path& folder, const fs::path& output) {
+  const std::vector<std::string> arguments = arguments_of(folder / "args");
+  const auto model = std::find(arguments.begin(), arguments.end(), "--model");
+  if (model == arguments.end()) return;
+  std::ofstream(output.string() + ".model") << (folder / model[1]).string() << "\n";
+}
+
 void check_good(const fs::path& folder, const fs::path& output) {
   const Outcome outcome = run_in(folder, "build", "good.yaml", output);
+  note_model(folder, output);
   INFO(outcome.err);
   CHECK(outcome.status == 0);
   CHECK(fs::exists(output));

@@ -12,19 +12,14 @@
 #include "base/files.h"
 #include "cli/process_helpers.h"
 #include "gltf/uri.h"
+#include "support/sanitizers.h"
 
 namespace rigc::test {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool kSanitized = true;
-#elif defined(__has_feature)
-constexpr bool kSanitized = __has_feature(address_sanitizer);
-#else
-constexpr bool kSanitized = false;
-#endif
+constexpr bool kSanitized = RIGC_HAS_ADDRESS_SANITIZER;
 
 constexpr std::size_t kLongestWord = 40;
 

@@ -109,8 +109,8 @@ std::vector<test::TextEdit> edits() {
   return {{"biped.yaml", "      - feature: proxy\n",
            "      - command: control\n        id: floor\n"
            "        with: {shape: square, size: 2, drive: off}\n      - feature: proxy\n"},
-          {"biped.yaml", "groups: {spine: spine}, with: {fingers: 5}}",
-           "groups: {spine: spine}, with: {fingers: 5, size: 0.2}}"}};
+          {"biped.yaml", "root: root}, with: {fingers: 5}}",
+           "root: root}, with: {fingers: 5, size: 0.2}}"}};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "pipeline/character_helpers.h"
 #include "pipeline/door_helpers.h"
+#include "pipeline/motion_helpers.h"
 
 namespace rigc {
 namespace {
@@ -82,6 +83,26 @@ TEST_CASE("pipeline inspect: a layer is shown as its switch stands in the file")
   extras["doors_visible"] = 1;
   test::save_glb(changed, path);
   CHECK(inspected(path)["layers"][0]["visible"] == true);
+}
+
+TEST_CASE("pipeline inspect: features are as they were set, in the whole rig and in parts of it") {
+  const auto rigged = test::rig_model("", "", "inspect_features", "biped.yaml", "bind",
+                                      {"stretch=on", "arm_l/ikfk=off", "ikfk:legs=off"});
+  const Json rig = inspected(rigged.path);
+  for (const Json& feature : rig["features"]) {
+    CAPTURE(feature["name"]);
+    if (feature["name"] == "stretch") CHECK(feature["on"] == true);
+    if (feature["name"] == "ribbons") CHECK(feature["on"] == false);
+    if (feature["name"] != "ikfk") continue;
+    CHECK(feature["on"] == true);
+    CHECK(feature["set"] == Json::parse(R"([{"group": "arm_l", "switch": "", "on": false},
+                                            {"group": "", "switch": "legs", "on": false}])"));
+  }
+  Diagnostics diagnostics;
+  const auto text = pipeline::inspect(rigged.path, false, diagnostics);
+  REQUIRE(text);
+  CHECK(has(*text, "  feature   stretch (limb) on\n"));
+  CHECK(has(*text, "  feature   ikfk (limb) on, off in arm_l, off for legs\n"));
 }
 
 }  // namespace rigc

@@ -45,7 +45,7 @@ joints:
       - command: expression
         with: {to: ./control@half, value: "{extra:third.base/control@translate.x} / 2"}
 parts:
-  - {template: parts/arm, as: arm_x, attach: base, groups: {spine: third}}
+  - {template: parts/arm, as: arm_x, attach: base, groups: {spine: third, torso: third, head: third, root: third}}
 )";
 
 const char* const kStick = R"(rigc: 1
@@ -85,6 +85,14 @@ std::string write(const std::string& name, const std::string& text) {
   return folder() + "/" + name;
 }
 
+/// An arm that joins another character has no body or head of its own for its hand to follow.
+std::vector<std::string> with_features(const std::string& template_file,
+                                       std::vector<std::string> features = {}) {
+  if (test::bytes_of(template_file).find("parts/arm,") != std::string::npos)
+    features.push_back("spaces=off");
+  return features;
+}
+
 std::string build(const std::string& template_file, const std::string& name,
                   const std::string& global = {}, const std::string& model = {},
                   const std::string& map = {}) {
@@ -95,6 +103,7 @@ std::string build(const std::string& template_file, const std::string& name,
   request.global = global;
   request.model = model;
   request.map = map;
+  request.features = with_features(template_file);
   const std::string out = folder() + "/" + name + ".glb";
   REQUIRE_MESSAGE(pipeline::build(request, out, diagnostics), render(diagnostics, false));
   if (!model.empty()) test::made_from(out, model);
@@ -388,7 +397,7 @@ TEST_CASE("merge into: settings of each rig go on to hold for it alone") {
     pipeline::BuildRequest request;
     request.template_file = template_file;
     request.paths.templates = {test::templates_folder()};
-    request.features = features;
+    request.features = with_features(template_file, features);
     request.global = name.find("arm") == std::string::npos ? "" : "extra";
     REQUIRE_MESSAGE(pipeline::build(request, folder() + "/" + name, diagnostics),
                     render(diagnostics, false));

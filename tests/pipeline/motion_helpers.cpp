@@ -134,7 +134,8 @@ Key Rigged::switch_to(const std::string& group, float ik) const {
 }
 
 Rigged rig_model(const std::string& model, const std::string& map, const std::string& name,
-                 const std::string& template_name, const std::string& rest) {
+                 const std::string& template_name, const std::string& rest,
+                 const std::vector<std::string>& features) {
   Diagnostics diagnostics;
   pipeline::BuildRequest request;
   request.template_file = templates_folder() + "/" + template_name;
@@ -142,6 +143,7 @@ Rigged rig_model(const std::string& model, const std::string& map, const std::st
   request.model = model;
   request.map = map;
   request.rest = rest;
+  request.features = features;
   Rigged rigged;
   rigged.path = test_out(name + "_rig.glb");
   rigged.model = model;

@@ -52,9 +52,11 @@ struct Rigged {
   Key switch_to(const std::string& group, float ik) const;
 };
 
-/// Builds a template onto a model, into `NAME_rig.glb`. `rest`: as for `--rest`.
+/// Builds a template onto a model, into `NAME_rig.glb`. `rest`, `features`: as for `--rest` and
+/// `--feature`.
 Rigged rig_model(const std::string& model, const std::string& map, const std::string& name,
-                 const std::string& template_name = "biped.yaml", const std::string& rest = "bind");
+                 const std::string& template_name = "biped.yaml", const std::string& rest = "bind",
+                 const std::vector<std::string>& features = {});
 
 /// Keys one pose a second (what a pose does not say rests), bakes that, and plays it: worlds of all
 /// nodes by second. Writes `NAME_keyed.glb` and `NAME_baked.glb`.

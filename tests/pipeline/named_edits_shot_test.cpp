@@ -37,7 +37,7 @@ void add_hero(const std::string& template_file, const std::string& path,
   REQUIRE_MESSAGE(prepared, render(diagnostics, false));
   prepared->rig_id = 1;
   std::size_t skipped = 0;
-  auto rig = pipeline::run_commands(*prepared, prepared->catalogue, skipped, diagnostics);
+  auto rig = pipeline::run_commands(*prepared, prepared->catalogue, {}, skipped, diagnostics);
   REQUIRE(rig);
   const Shot shot = test::read_shot(path);
   gltf::Patch patch(*shot.file);

@@ -52,7 +52,7 @@ TEST_CASE("plan program: every instruction says its node and template line") {
     CHECK(std::stoi(line.substr(place + 6)) > 0);
   }
   CHECK(instructions > 200);
-  CHECK(text.find("  # rotation of control hips_control\n") != std::string::npos);
+  CHECK(text.find("  # rotation of control body\n") != std::string::npos);
   CHECK(text.find("  # world of joint head_head\n") != std::string::npos);
   const std::string last = lines_of(text).back();
   CHECK(last.starts_with(std::to_string(instructions) + " instructions, "));
@@ -83,7 +83,7 @@ TEST_CASE("plan program: as JSON") {
     CHECK(*instruction["line"].integer() > 0);
     CHECK(*instruction["result"]["row"].integer() < *programs[0]["rows"].integer());
   }
-  CHECK(programs[0]["outputs"].size() == 76);
+  CHECK(programs[0]["outputs"].size() == 80);
   CHECK(*programs[0]["bytes"].integer() == *programs[0]["rows"].integer() * 64);
 }
 

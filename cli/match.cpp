@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// rigc match: the pose of limbs from FK controls to IK controls, or back; controls to other spaces.
+// Test: tests/cli/match_test.cpp
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "cli/command.h"
+#include "cli/timing.h"
+#include "pipeline/match.h"
+
+namespace rigc::cli {
+namespace {
+
+class Match final : public Command {
+ public:
+  std::string name() const override { return "match"; }
+  std::string summary() const override {
+    return "Key a switch without moving: limbs from FK to IK controls or back, controls to another "
+           "space";
+  }
+  std::vector<std::string> examples() const override {
+    return {"rigc match shot.glb --limb arm_l --to ik -o shot.glb",
+            "rigc match shot.glb --limb arm_l --limb arm_r --to fk --range 1.5:3 -o matched.glb",
+            "rigc match shot.glb --limb all --to ik --fps 30 --clip walk -o matched.glb",
+            "rigc match shot.glb --control arm_l_wrist_ik --space chest --range 2: -o shot.glb"};
+  }
+  void declare(Options& options) override {
+    options.positional("FILE", request_.file, true, "Rig file with clips");
+    options.list("--limb", "GROUP", request_.limbs,
+                 "Limb to match, by its local group; all for every one");
+    options.text("--to", "ik|fk", request_.to, false, "Which controls of limbs get the pose");
+    options.list("--control", "NAME|SELECTOR", request_.controls,
+                 "Control that follows another space and stays where it is");
+    options.text("--space", "NAME", request_.space, false,
+                 "The space that these controls follow, as `space_switch` calls it");
+    options.text("-o,--output", "OUT.glb", out_, true, "File to write (.glb or .gltf)");
+    options.text("--range", "START:END", request_.range, false,
+                 "Seconds between which this is done (default: the whole clip). Outside of them "
+                 "everything stays as it was");
+    options.list("--clip", "NAME", request_.clips,
+                 "Match in this clip, by name or number (default: all)");
+    options.text("--fps", "N|source", request_.fps, false,
+                 "Frames a second, or source: at the keys' own times (default)");
+    declare_timing(options, timing_);
+  }
+  void run(Session& session) override {
+    run_timed(timing_, session, [&] { match(session); });
+  }
+
+ private:
+  void match(Session& session) {
+    const bool of_limbs = request_.space.empty() && request_.controls.empty();
+    if (of_limbs && request_.limbs.empty()) request_.limbs.emplace_back("all");
+    const auto done = pipeline::match_file(request_, out_, session.diagnostics);
+    if (!done) return;
+    session.out = session.json ? as_json(*done) : as_text(*done);
+  }
+
+  std::string as_text(const pipeline::MatchedFile& done) const {
+    std::string text = fmt::format("{}: {} clip{}, {} KB\n", printable(out_), done.clips.size(),
+                                   done.clips.size() == 1 ? "" : "s", (done.bytes + 1023) / 1024);
+    for (const pipeline::MatchedClip& clip : done.clips) {
+      text += fmt::format("  \"{}\"\n", printable(clip.name));
+      for (const pipeline::MatchedLimb& limb : clip.limbs)
+        text += fmt::format(
+            "    {} to {}: {} frames, {} channels, {} keys; off by up to {} mm, {} "
+            "degrees\n",
+            printable(limb.limb), target(), limb.frames, limb.channels, limb.keys,
+            pipeline::short_number(limb.off.mm), pipeline::short_number(limb.off.degrees));
+    }
+    return text;
+  }
+
+  std::string as_json(const pipeline::MatchedFile& done) const {
+    json::Writer w(2);
+    w.begin_object()
+        .member("file", out_)
+        .member("bytes", static_cast<std::size_t>(done.bytes))
+        .member("to", target())
+        .key("clips")
+        .begin_array();
+    for (const pipeline::MatchedClip& clip : done.clips) {
+      w.begin_object().member("name", clip.name).key("limbs").begin_array();
+      for (const pipeline::MatchedLimb& limb : clip.limbs)
+        w.begin_object()
+            .member("limb", limb.limb)
+            .member("frames", limb.frames)
+            .member("channels", limb.channels)
+            .member("keys", limb.keys)
+            .member("mm", limb.off.mm)
+            .member("percent_of_height", limb.off.percent)
+            .member("joint", limb.off.joint)
+            .member("degrees", limb.off.degrees)
+            .member("turned_joint", limb.off.turned_joint)
+            .end_object();
+      w.end_array().end_object();
+    }
+    w.end_array().end_object();
+    return w.take() + "\n";
+  }
+
+  /// What is said of limbs or controls alike.
+  const std::string& target() const {
+    return request_.space.empty() ? request_.to : request_.space;
+  }
+
+  pipeline::MatchRequest request_;
+  std::string out_;
+  Timing timing_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_match() { return std::make_unique<Match>(); }
+
+}  // namespace rigc::cli

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Match a file: the pose of limbs is carried from FK controls to IK controls, or back, or controls
+// are handed to another space, and the switch is keyed. Test: tests/cli/match_test.cpp
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bake/match.h"
+#include "bake/match_space.h"
+#include "base/diagnostics.h"
+#include "pipeline/transfer.h"
+
+namespace rigc::pipeline {
+
+struct MatchRequest {
+  std::string file;
+  std::vector<std::string> limbs;  ///< local groups; `all`: every one
+  std::string to;                  ///< ik or fk; empty: spaces
+  /// Controls that change their space: names of their nodes, or selectors of one each.
+  std::vector<std::string> controls;
+  std::string space;               ///< that they follow then; empty: limbs
+  std::string range;               ///< START:END in seconds, either may be empty; empty: all
+  std::vector<std::string> clips;  ///< names or numbers; empty: all
+  std::string fps = "source";      ///< a number, or "source": at the keys' own times
+};
+
+struct MatchedLimb {
+  std::string limb;  ///< or the control
+  std::size_t frames = 0, channels = 0, keys = 0;
+  Off off;  ///< at the frames
+};
+
+struct MatchedClip {
+  std::string name;
+  std::vector<MatchedLimb> limbs;
+};
+
+struct MatchedFile {
+  std::vector<MatchedClip> clips;
+  std::uint64_t bytes = 0;
+};
+
+std::optional<MatchedFile> match_file(const MatchRequest& request, const std::string& out,
+                                      Diagnostics& diagnostics);
+
+}  // namespace rigc::pipeline
