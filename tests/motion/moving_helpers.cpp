@@ -3,6 +3,7 @@
 #include "motion/moving_helpers.h"
 
 #include <doctest/doctest.h>
+#include <cmath>
 
 #include "eval/values.h"
 #include "pipeline/build.h"
@@ -27,7 +28,7 @@ Moving::Moving(const std::string& file) : name_(file) {
   const auto prepared = pipeline::prepare(request, diagnostics);
   std::size_t skipped = 0;
   if (prepared) {
-    auto rig = pipeline::run_commands(*prepared, prepared->catalogue, skipped, diagnostics);
+    auto rig = pipeline::run_commands(*prepared, prepared->catalogue, {}, skipped, diagnostics);
     if (rig) scene_ = std::move(rig->scene);
   }
   REQUIRE_MESSAGE(diagnostics.errors() == 0, all_of(diagnostics));
@@ -46,13 +47,17 @@ Moving::Moving(const std::string& file) : name_(file) {
   REQUIRE_MESSAGE(program_, all_of(diagnostics));
 }
 
+/// Angles move as far as rotations do: two poses half a turn apart have no way between them.
+constexpr double kTurn = 30;
+
 void Moving::add_keyables(scene::NodeId control) {
   const scene::Node& node = scene_[control];
   const unsigned bits = scene::keyable_bits(scene_, control);
   const std::string name = node.ids.local + "." + node.name + "@";
   const auto add = [&](std::uint16_t attribute, Keyable::What what, const char* text) {
     const scene::Plug plug{control, attribute};
-    keyables_.push_back({plug, what, name + text, 0, 0, eval::numbers_of(scene_.value(plug))});
+    keyables_.push_back(
+        {plug, what, name + text, 0, 0, false, eval::numbers_of(scene_.value(plug))});
   };
   if (bits & scene::kTranslateBits)
     add(scene::transform::kTranslate, Keyable::What::translate, "translate");
@@ -63,11 +68,19 @@ void Moving::add_keyables(scene::NodeId control) {
     const scene::UserAttribute& user = node.user[i];
     if (!user.keyable) continue;
     const scene::Plug plug{control, static_cast<std::uint16_t>(scene::kUserAttributes + i)};
+    const bool angle = user.flavour == scene::UserAttribute::Flavour::angle;
+    const double reach = angle ? kTurn : 1;
+    double low = user.min.value_or(-reach), high = user.max.value_or(reach);
+    if (angle) {
+      low = std::fmax(low, user.value - kTurn);
+      high = std::fmin(high, user.value + kTurn);
+    }
     keyables_.push_back({plug,
                          Keyable::What::number,
                          name + user.name,
-                         user.min.value_or(-1),
-                         user.max.value_or(1),
+                         low,
+                         high,
+                         user.flavour == scene::UserAttribute::Flavour::integer,
                          {user.value}});
   }
 }

@@ -19,6 +19,7 @@ struct Keyable {
   What what;
   std::string name;          ///< `arm_l.settings@ik_fk`: for messages
   double low = 0, high = 0;  ///< of a number: its range
+  bool whole = false;        ///< of a number: it counts, such as the number of a space
   std::vector<double> rest;
 };
 
