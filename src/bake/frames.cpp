@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "bake/codes.h"
+#include "bake/rounded.h"
 
 namespace rigc::bake {
 namespace {
@@ -70,7 +71,7 @@ std::vector<double> keys(const Window& range, const anim::Clip& animated) {
 
 /// As glTF holds them, in 32 bits: a step of a control is a step at the very time of its key.
 void round(std::vector<double>& times) {
-  for (double& time : times) time = static_cast<double>(static_cast<float>(time));
+  for (double& time : times) time = rounded(time);
   times.erase(std::unique(times.begin(), times.end()), times.end());
 }
 

@@ -5,6 +5,8 @@
 
 #include <cstddef>
 
+#include "bake/rounded.h"
+
 namespace rigc::bake {
 
 struct Gap {
@@ -16,7 +18,7 @@ struct Gap {
   /// Evenly spread, at times that a file can hold; i below kInside.
   double inside(std::size_t i) const {
     const double share = static_cast<double>(i + 1) / (kInside + 1);
-    return static_cast<double>(static_cast<float>(begin + (end - begin) * share));
+    return rounded(begin + (end - begin) * share);
   }
   double middle() const { return inside(kInside / 2); }
   /// Whether it can be halved.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/rounded.h"
+
 namespace rigc::bake {
 namespace {
 
@@ -18,8 +20,6 @@ namespace transform = scene::transform;
 /// Axes (of length 1) and places (in units of 1 and of how far out they are) that differ by less
 /// are where they were: 32-bit floats do not tell them apart.
 constexpr double kSame = 1e-8;
-
-double rounded(double x) { return static_cast<double>(static_cast<float>(x)); }
 
 bool is_same(const std::vector<double>& a, const std::vector<double>& b) {
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -37,9 +37,10 @@ Kept kept(const std::vector<double>& worlds, const std::vector<double>& parents,
     Quat q = math::quaternion(math::orthonormal(local.linear));
     if (math::dot(before, q) < 0) q = -q;
     before = q;
-    for (const double n : {local.origin.x, local.origin.y, local.origin.z})
-      out.places.push_back(rounded(n));
-    for (const double n : {q.x, q.y, q.z, q.w}) out.turns.push_back(rounded(n));
+    const Vec3 place = rounded(local.origin);
+    const Quat turn = rounded(q);
+    out.places.insert(out.places.end(), {place.x, place.y, place.z});
+    out.turns.insert(out.turns.end(), {turn.x, turn.y, turn.z, turn.w});
   }
   return out;
 }

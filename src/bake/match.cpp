@@ -9,6 +9,7 @@
 
 #include "bake/frames.h"
 #include "bake/key_edit.h"
+#include "bake/rounded.h"
 #include "bake/said.h"
 #include "eval/clip_inputs.h"
 
@@ -73,9 +74,6 @@ std::vector<MatchLimb> find_match_limbs(const scene::Scene& scene) {
 std::optional<std::vector<double>> match_times(
     const scene::Scene& scene, const std::vector<int>& nodes, const anim::Clip& clip, double fps,
     std::optional<double> start, std::optional<double> end, Diagnostics& diagnostics) {
-  const auto rounded = [](double seconds) {
-    return static_cast<double>(static_cast<float>(seconds));
-  };
   const double first = rounded(std::max(start.value_or(anim::first_time(clip)), 0.0));
   const double last = std::max(first, rounded(end.value_or(anim::last_time(clip))));
   if (!check_frame_count((last - first) * fps + 2, kWidth, diagnostics)) return std::nullopt;

@@ -7,6 +7,7 @@
 
 #include "bake/held.h"
 #include "bake/match.h"
+#include "bake/rounded.h"
 #include "bake/transfer_limb.h"
 #include "bake/transfer_order.h"
 
@@ -24,10 +25,6 @@ namespace ik2 = scene::ik2;
 
 /// Lengths that differ by less are one: what 32-bit floats leave of them.
 constexpr double kSame = 5e-7;
-
-double rounded(double x) { return static_cast<double>(static_cast<float>(x)); }
-Vec3 rounded(Vec3 v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
-Quat rounded(Quat q) { return {rounded(q.x), rounded(q.y), rounded(q.z), rounded(q.w)}; }
 
 /// Values of plugs in all frames, [frames][width] each.
 using Table = std::map<Plug, std::vector<double>>;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "bake/joints.h"
+#include "bake/rounded.h"
 #include "bake/transfer_limb.h"
 #include "bake/transfer_order.h"
 #include "bake/transfer_tidy.h"
@@ -333,11 +334,7 @@ class Solver {
   /// The numbers that players read, so that the levels above make good what rounding does below; a
   /// rotation is not of length 1 then.
   static math::Trs as_written(const math::Trs& local) {
-    const auto number = [](double x) { return static_cast<double>(static_cast<float>(x)); };
-    const auto vector = [&](Vec3 v) { return Vec3{number(v.x), number(v.y), number(v.z)}; };
-    const math::Quat& q = local.rotation;
-    const math::Quat rounded{number(q.x), number(q.y), number(q.z), number(q.w)};
-    return {vector(local.translation), rounded, vector(local.scale)};
+    return {rounded(local.translation), rounded(local.rotation), rounded(local.scale)};
   }
 
   /// The same of a joint that keeps the curves it has: between their keys nothing is rounded.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/rounded.h"
+
 namespace rigc::bake {
 namespace {
 
@@ -35,7 +37,7 @@ void Tidy::make_continuous(const Unknown& u, std::vector<double>& numbers) const
   double before = scene_.number(u.attribute);
   for (double& number : numbers) {
     if (!is_length(u)) number += std::nearbyint((before - number) / turn) * turn;
-    number = before = static_cast<double>(static_cast<float>(number));
+    number = before = rounded(number);
   }
 }
 
