@@ -20,6 +20,17 @@ Builder::Builder(const Job& job, Parameters parameters, scene::Edit& edit)
       edit_(edit),
       joint_(job.index.joint(job.skeleton.joints[job.joint].key)) {}
 
+JointKey Builder::twin() const {
+  const tags::TaggedJoint& holder = job_.skeleton.joints[job_.joint];
+  const int found = job_.skeleton.find(holder.mirror.opposite);
+  if (found < 0) return {};
+  const auto& commands = job_.skeleton.joints[static_cast<std::size_t>(found)].commands;
+  const bool twin = std::any_of(commands.begin(), commands.end(), [&](const auto& command) {
+    return command.module == job_.command.module && command.id == job_.command.id;
+  });
+  return twin ? holder.mirror.opposite : JointKey{};
+}
+
 const tags::TaggedJoint* Builder::tagged(NodeId joint) const {
   const scene::Node& node = scene()[joint];
   if (!node.is_skeleton()) return nullptr;

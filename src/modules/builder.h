@@ -54,6 +54,9 @@ class Builder {
 
   /// The joint that holds the command.
   NodeId joint() const { return joint_; }
+  /// The joint on the other side that holds the same command; uid 0: none does, and what this
+  /// command makes has its mirror image in what it makes itself, if anywhere.
+  JointKey twin() const;
   /// The tagged joint behind a skeleton joint; null for nodes that commands made.
   const tags::TaggedJoint* tagged(NodeId joint) const;
 

@@ -20,8 +20,6 @@ using scene::Kind;
 namespace transform = scene::transform;
 namespace constraint = scene::constraint;
 
-/// Joints nearer to the middle than this, in heights of the character, are on no side.
-constexpr double kMiddle = 0.01;
 /// Cosine above which two axes count as one.
 constexpr double kAligned = 0.999;
 constexpr Vec3 kLeftColor{0.16, 0.42, 0.95};
@@ -74,19 +72,28 @@ std::vector<double> mirror_signs(const Builder& b, const ControlSpec& spec, Node
   return signs;
 }
 
-/// Names the control that the same command makes on the other side, and how values are copied to
-/// it.
+/// Says how values are copied to the control on the other side, and which it is: what the twin of
+/// the command makes, or what the command itself has made before.
 void set_opposite(Builder& b, NodeId control, const ControlSpec& spec) {
   const tags::TaggedJoint* owner = b.tagged(spec.joint);
-  const tags::TaggedJoint* holder = b.tagged(b.joint());
-  if (!owner || !holder || owner->mirror.opposite.uid == 0) return;
-  const NodeId opposite = b.index().joint(owner->mirror.opposite);
-  if (!opposite.valid()) return;
-  Identity identity = b.scene()[control].identity;
-  identity.owner = owner->mirror.opposite;
-  if (holder->mirror.opposite.uid != 0) identity.holder = holder->mirror.opposite;
-  b.set({control, scene::control::kOpposite}, to_text(identity));
-  b.set({control, scene::control::kMirror}, mirror_signs(b, spec, opposite));
+  if (!owner || owner->mirror.opposite.uid == 0) return;
+  const NodeId joint = b.index().joint(owner->mirror.opposite);
+  if (!joint.valid()) return;
+  b.set({control, scene::control::kMirror}, mirror_signs(b, spec, joint));
+  const Identity own = b.scene()[control].identity;
+  Identity other = own;
+  other.owner = owner->mirror.opposite;
+  const JointKey twin = b.twin();
+  if (twin.uid != 0) {
+    other.holder = twin;
+    b.set({control, scene::control::kOpposite}, to_text(other));
+    return;
+  }
+  for (const NodeId made : b.index().made_for(other.owner)) {
+    if (!(b.scene()[made].identity == other)) continue;
+    b.set({control, scene::control::kOpposite}, to_text(other));
+    b.set({made, scene::control::kOpposite}, to_text(own));
+  }
 }
 
 void place(Builder& b, NodeId node, NodeId parent, const Affine& frame) {
@@ -179,9 +186,8 @@ void face(const Builder& b, ControlSpec& spec, const std::string& axis, Vec3 bon
 
 Vec3 side_color(const Builder& b, NodeId joint, std::string_view parameter) {
   if (b.with().has(parameter)) return b.with().vec3(parameter);
-  const double side = math::dot(position(b, joint), b.character().left) - b.side_middle();
-  const double threshold = kMiddle * b.character().height;
-  return side > threshold ? kLeftColor : side < -threshold ? kRightColor : kMiddleColor;
+  const int side = side_of(b, joint);
+  return side > 0 ? kLeftColor : side < 0 ? kRightColor : kMiddleColor;
 }
 
 namespace {

@@ -40,6 +40,8 @@ math::Affine oriented(const Builder& b, NodeId joint, const std::string& orient,
                       math::Vec3 direction);
 AxesFrom axes_from(const std::string& orient);
 bool is_mirrored(const Builder& b, NodeId joint);
+/// 1 on the character's left, -1 on its right, 0 in the middle.
+int side_of(const Builder& b, NodeId joint);
 /// An offset along a frame's own axes (`offset:` with `orient:`), so that both sides mirror each
 /// other: on mirrored joints the template's expansion has turned x round, as the axes of the
 /// character need it; axes of the bone or joint are all turned round there.
@@ -51,6 +53,8 @@ math::Vec3 character_direction(const Builder& b, const std::string& name);
 
 /// The innermost control of the rig's root; invalid without one.
 NodeId root_control(const Builder& b);
+/// The joint that a joint hangs under in the template, else in the model; invalid: none.
+NodeId joint_above(const Builder& b, NodeId joint);
 /// What a joint's control hangs under where nobody says: the control that alone drives the nearest
 /// driven joint above it in the template's order, or that joint itself where a blend or solver
 /// drives it; else the root control; else nothing.

@@ -16,6 +16,8 @@ using scene::Kind;
 constexpr double kForwardBone = 0.8;
 /// Shortest bone that has a direction, in heights of the character.
 constexpr double kShortest = 1e-6;
+/// Joints nearer to the middle than this, in heights of the character, are on no side.
+constexpr double kMiddle = 0.01;
 
 std::vector<NodeId> skeleton_children(const Builder& b, NodeId joint) {
   std::vector<NodeId> children;
@@ -94,6 +96,12 @@ Vec3 chain_direction(const Builder& b, const std::vector<NodeId>& chain, std::si
 bool is_mirrored(const Builder& b, NodeId joint) {
   const tags::TaggedJoint* tagged = b.tagged(joint);
   return tagged && tagged->mirror.mirrored;
+}
+
+int side_of(const Builder& b, NodeId joint) {
+  const double side = math::dot(position(b, joint), b.character().left) - b.side_middle();
+  const double middle = kMiddle * b.character().height;
+  return side > middle ? 1 : side < -middle ? -1 : 0;
 }
 
 Mat3 bone_frame(const Builder& b, NodeId joint, Vec3 direction) {

@@ -46,16 +46,6 @@ NodeId single_driver(const scene::Scene& scene, NodeId joint) {
   return target.valid() && scene[target].kind == Kind::control ? target : NodeId{};
 }
 
-/// The joint that a joint hangs under in the template, else in the model.
-NodeId above(const Builder& b, NodeId joint) {
-  const tags::TaggedJoint* tagged = b.tagged(joint);
-  if (tagged && tagged->template_parent.uid != 0) {
-    const NodeId found = b.index().joint(tagged->template_parent);
-    if (found.valid()) return found;
-  }
-  return b.scene()[joint].parent;
-}
-
 /// The joint that moves as a node does: itself, the joint that a control turns, or that of what the
 /// node hangs under or follows; invalid where there is none.
 NodeId moved_with(const Builder& b, NodeId node) {
@@ -103,15 +93,24 @@ NodeId root_control(const Builder& b) {
   return found;
 }
 
+NodeId joint_above(const Builder& b, NodeId joint) {
+  const tags::TaggedJoint* tagged = b.tagged(joint);
+  if (tagged && tagged->template_parent.uid != 0) {
+    const NodeId found = b.index().joint(tagged->template_parent);
+    if (found.valid()) return found;
+  }
+  return b.scene()[joint].parent;
+}
+
 NodeId space_of(const Builder& b, NodeId joint) {
-  NodeId at = above(b, joint);
+  NodeId at = joint_above(b, joint);
   // Where template and model disagree more than once the way up may be a circle.
   for (std::size_t steps = 0; at.valid() && steps < b.skeleton().joints.size(); ++steps) {
     if (b.scene()[at].kind == Kind::joint && is_driven(b.scene(), at)) {
       const NodeId control = single_driver(b.scene(), at);
       return control.valid() ? control : at;
     }
-    at = above(b, at);
+    at = joint_above(b, at);
   }
   return root_control(b);
 }

@@ -130,8 +130,9 @@ std::optional<std::vector<anim::Channel>> bake_morphs(const gltf::File& file,
     for (std::size_t f = 0; f < times.size(); ++f) {
       if (keyed) anim::sample(*before, false, static_cast<double>(times[f]), sampled.data());
       for (const double weight : sampled) values.push_back(static_cast<float>(weight));
+      for (const auto& driven : each.driven) values[f * width + driven.target] = 0;
       for (std::size_t i = 0; i < each.driven.size(); ++i)
-        values[f * width + each.driven[i].target] = static_cast<float>((*numbers)[row + i][f]);
+        values[f * width + each.driven[i].target] += static_cast<float>((*numbers)[row + i][f]);
     }
     row += each.driven.size();
     if (!keyed && !differs(values, each.mesh.weights)) continue;

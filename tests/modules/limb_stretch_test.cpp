@@ -270,6 +270,14 @@ TEST_CASE("modules limb_stretch: keys beyond the limits of attributes count as t
     at.set(kFoot + "@" + key.name, key.limit);
     CHECK(test::largest_difference(far.joints(), at.joints(), 1) < 1e-12);
   }
+  test::Pose far(rig), at(rig);
+  for (const std::string label : {"upper", "lower"}) {
+    const std::string control = "arm_l." + label + "/ik_fk_limb.fk@length";
+    far.set(control, -1.0);
+    at.set(control, 0.001);
+  }
+  for (test::Pose* pose : {&far, &at}) pose->set("arm_l/ik_fk_limb.settings@ik_fk", 0.0);
+  CHECK(test::largest_difference(far.joints(), at.joints(), 1) < 1e-12);
 }
 
 TEST_CASE("modules limb_stretch: FK has lengths of its own, and its controls stay on the joints") {

@@ -179,3 +179,30 @@ TEST_CASE("modules look_at: each lid goes with the eye that it lies nearest to")
     CHECK(std::abs(lifted(rig, pose, "eye_r." + lid)) < 1e-9);
   }
 }
+
+TEST_CASE("modules look_at: eyes and lids name each other, the target between them nobody") {
+  std::string held = with_lids();  // by the head; then by an eye, as in templates
+  const std::string command = "      - {command: look_at";
+  const std::size_t from = held.find(command), to = held.find('\n', from) + 1;
+  const std::string moved = held.substr(from, to - from);
+  held.erase(from, to - from);
+  const std::string eye = "    local: eye_l\n    label: eye\n";
+  held.insert(held.find(eye) + eye.size(), "    tags:\n" + moved);
+  for (const bool by_eye : {false, true}) {
+    CAPTURE(by_eye);
+    const test::Rig rig(by_eye ? held : with_lids());
+    INFO(test::text(rig.diagnostics));
+    REQUIRE(rig.clean());
+    const auto opposite = [&](const std::string& control) {
+      return std::get<std::string>(rig.scene().value(rig.plug(control + "@opposite")));
+    };
+    for (const std::string own : {"eye_l", "eye_r"}) {
+      const std::string other = own == "eye_l" ? "eye_r" : "eye_l";
+      for (const std::string control : {".eye/look_at.aim", ".upper/look_at.fk"})
+        CHECK(opposite(own + control) == to_text(rig.scene()[rig.node(other + control)].identity));
+    }
+    const scene::Node& target = rig.scene()[rig.node(kTarget)];
+    CHECK(target.name == "head_target");
+    CHECK(opposite(kTarget).empty());
+  }
+}

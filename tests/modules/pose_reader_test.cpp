@@ -148,6 +148,13 @@ TEST_CASE("modules pose_reader: equal keys on both sides give equal weights, on 
     CHECK(apart(weights(pose, "arm_l"), weights(pose, "arm_r")) < 1e-9);
   }
   const test::Rig usual(yaml);
+  for (const Vec3 axis : {kUp, kForward}) {  // mirrored poses of joints that say nothing of it
+    test::Pose pose(usual);
+    pose.turn_in_world(kArm, about(axis, 50))
+        .turn_in_world("arm_r.upper/control", about(-axis, 50));
+    CHECK(apart(weights(pose, "arm_l"), weights(pose, "arm_r")) < 1e-9);
+    CHECK(apart(weights(pose), weights(test::Pose(usual))) > 0.1);
+  }
   for (const test::Model& model : test::models()) {
     CAPTURE(model.name);
     const test::Rig rig(yaml, model.change);

@@ -77,6 +77,16 @@ TEST_CASE("modules space_switch: each number is a space, as if the control hung 
   }
 }
 
+TEST_CASE("modules space_switch: numbers beyond the spaces count as the nearest") {
+  const test::Rig rig(figure(""));
+  const auto at = [&](double number) {
+    test::Pose pose = danced(rig);
+    return pose.set(kHand + "@space", number).world(kHand);
+  };
+  CHECK(error(at(-1), at(0)) < 1e-12);
+  CHECK(error(at(7), at(2)) < 1e-12);
+}
+
 TEST_CASE("modules space_switch: which space counts at rest") {
   const test::Rig rig(figure(", default: head"));
   REQUIRE(rig.clean());

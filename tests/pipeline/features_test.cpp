@@ -19,7 +19,8 @@ namespace {
 using Features = std::vector<std::string>;
 
 /// Made in place of another feature, not with it.
-const std::map<std::string, std::string> kInPlaceOf{{"fk", "ikfk"}, {"spine_ik", "spine_fk"}};
+const std::map<std::string, std::string> kInPlaceOf{
+    {"fk", "ikfk"}, {"spine_ik", "spine_fk"}, {"chain", "strand_fk"}};
 
 pipeline::Built build(const Features& features, const std::string& out,
                       const std::string& model = {}, const std::string& map = {},
@@ -68,6 +69,18 @@ std::set<std::string> keyable(const gltf::Rig& rig) {
   return out;
 }
 
+/// Each that a template has in place of another changes controls.
+void check_places(const std::set<std::string>& all, const std::string& of = "biped") {
+  const std::vector<std::string> names = catalogue(of);
+  for (const auto& pair : kInPlaceOf) {
+    if (std::find(names.begin(), names.end(), pair.second) == names.end()) continue;
+    CAPTURE(pair.first);
+    Features features = all_on(pair.second, of);
+    features.push_back(pair.first + "=on");
+    CHECK(keyable(build(features, "features_other.glb", {}, {}, of).rig) != all);
+  }
+}
+
 }  // namespace
 
 TEST_CASE("pipeline features: all of the biped's together, and each off in turn changes controls") {
@@ -81,12 +94,7 @@ TEST_CASE("pipeline features: all of the biped's together, and each off in turn 
     if (name != "ikfk" && name != "spine_fk")
       CHECK(std::includes(all.begin(), all.end(), without.begin(), without.end()));
   }
-  for (const auto& pair : kInPlaceOf) {
-    CAPTURE(pair.first);
-    Features features = all_on(pair.second);
-    features.push_back(pair.first + "=on");
-    CHECK(keyable(build(features, "features_other.glb").rig) != all);
-  }
+  check_places(all);
 }
 
 TEST_CASE("pipeline features: one side alone") {
@@ -129,6 +137,7 @@ TEST_CASE("pipeline features: the quadruped's, alone and on the creatures of the
     const auto without = build(all_on(feature, name), "features_four_without.glb", {}, {}, name);
     CHECK(keyable(without.rig) != all);
   }
+  check_places(all, name);
   const std::map<std::string, std::string> creatures{{"khronos_Fox/Fox.glb", "fox"},
                                                      {"godot_enemy/enemy.glb", "enemy"}};
   for (const auto& [file, map] : creatures) {

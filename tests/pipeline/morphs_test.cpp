@@ -200,6 +200,21 @@ TEST_CASE("pipeline morphs: a bake writes what the rig says of targets, others s
   CHECK(test::bytes_of(again) == test::bytes_of(test::test_out("morph_kept.glb")));
 }
 
+TEST_CASE("pipeline morphs: what several commands say of one target adds up") {
+  Diagnostics diagnostics;
+  const std::string two =
+      "Angry, Sad]}}\n      - {command: morph_targets, id: more, with: {weights: [./control@angry, "
+      "./control@angry], targets: [Smile";
+  const std::string rig = test::test_out("morph_sum_rig.glb"),
+                    keyed = test::test_out("morph_sum_keyed.glb"),
+                    out = test::test_out("morph_sum.glb");
+  const auto built = build_face(made_model(), "low", "high", rig, diagnostics, two);
+  key_face(rig, built.rig, -1, "bow", keyed);
+  bake_face(keyed, out);
+  check_near(weights_at(out, "bow", 2, 3, 0), {0, 0, 0});
+  check_near(weights_at(out, "bow", 2, 3, 1), {0.8, 1.8, 0.8});
+}
+
 TEST_CASE("pipeline morphs: damaged keys on weights are an error") {
   Diagnostics diagnostics;
   const std::string rig = test::test_out("morph_damaged_rig.glb");

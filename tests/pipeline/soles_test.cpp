@@ -198,22 +198,27 @@ TEST_CASE("pipeline soles: no vertex of a foot sinks into the ground, whatever t
     const Foot foot = foot_of(built->rig, request.model);
     if (foot.vertices.empty() || !foot.ik.valid() || !foot.lean.valid()) continue;
     ++feet;
-    double rolls = 0, rises = 0, banks = 0, leans = 0, bends = 0;
-    for (int i = -60; i <= 60; i += 5) {
+    double rolls = 0, rises = 0, banks = 0, lifts = 0, leans = 0, bends = 0;
+    for (int i = -90; i <= 90; i += 5) {
       const double angle = i;
-      rolls = std::max(rolls, foot.sunk({{plug(foot, foot.ik, "roll"), angle}}));
+      if (i >= -80)  // beyond, the shin holds back what of the heel's skin is its own
+        rolls = std::max(rolls, foot.sunk({{plug(foot, foot.ik, "roll"), angle}}));
+      lifts = std::max(lifts, foot.sunk({{plug(foot, foot.ik, "toe_lift"), std::max(angle, 0.0)}}));
+      banks = std::max(banks, foot.sunk({{plug(foot, foot.ik, "bank"), angle}}));
+      if (std::abs(i) > 60) continue;  // no toes bend as far
       rises = std::max(rises, foot.sunk({{plug(foot, foot.ik, "roll"), angle},
                                          {plug(foot, foot.ik, "roll_break"), 90.0}}));
-      banks = std::max(banks, foot.sunk({{plug(foot, foot.ik, "bank"), angle}}));
     }
     for (int toward = 0; toward < 360; toward += 10) {
-      for (const double angle : {0.3, 1.0, 5.0, 20.0, 40.0, 60.0}) {
+      for (const double angle : {0.3, 1.0, 5.0, 20.0, 40.0, 60.0, 75.0, 90.0}) {
         const eval::Setting leaned{{foot.lean, scene::transform::kRotation}, lean(toward, angle)};
         leans = std::max(leans, foot.sunk({leaned}));
+        if (angle > 60) continue;
         bends = std::max(bends, foot.sunk({leaned, {plug(foot, foot.lean, "ball"), 1.0}}));
       }
     }
     CHECK(banks < kSinks);
+    CHECK(lifts < kSinks);
     CHECK(leans < kSinks);
     CHECK(bends < kSinks);
     CHECK(rolls < kSinks);

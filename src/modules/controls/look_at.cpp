@@ -115,6 +115,15 @@ void make_lids(Builder& b, const std::vector<Eye>& eyes, NodeId target) {
     }
 }
 
+/// What the common target belongs to: the joint that holds the command, or, where that is one of
+/// two sides, the joint that both hang on.
+NodeId target_joint(const Builder& b) {
+  const tags::TaggedJoint* holder = b.tagged(b.joint());
+  if (!holder || holder->mirror.opposite.uid == 0) return b.joint();
+  const NodeId above = joint_above(b, b.joint());
+  return above.valid() ? above : b.joint();
+}
+
 }  // namespace
 
 void look_at(Builder& b) {
@@ -126,7 +135,7 @@ void look_at(Builder& b) {
   const math::Vec3 ahead = b.character().forward * with.number("distance");
 
   ControlSpec spec;
-  spec.joint = b.joint();
+  spec.joint = target_joint(b);
   spec.role = "target";
   spec.frame = {character_axes(b), middle + ahead};
   spec.space = space_from(b, "parent", root_control(b));

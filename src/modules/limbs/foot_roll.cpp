@@ -61,7 +61,8 @@ void add_attributes(Builder& b, Foot& foot) {
 
 /// Spins turn about upright axes on the level sole and so come first; then the sole tilts over
 /// heel, tip or an edge. Over each of these nothing of it reaches out, so none of them pushes it
-/// into the ground whatever the others do. The hinge over which the foot rises from its toes slides
+/// into the ground whatever the others do; where it gets steep the foot lifts onto what lies above
+/// the edge. The hinge over which the foot rises from its toes slides
 /// forward from the ball with what of the foot lies before it.
 constexpr const char* kStanding = R"(
 straightened = clamp((roll - roll_break) / max(roll_straight - roll_break, 0.001), 0, 1) * bends
@@ -69,12 +70,15 @@ straightened = clamp((roll - roll_break) / max(roll_straight - roll_break, 0.001
 spun = frame(heel, axis_angle(up, heel_spin))
      * frame(tip - heel, axis_angle(up, toe_spin))
      * frame(ball - tip, axis_angle(up, ball_spin));
+over_tip = max(roll, 0) * straightened + toe_lift;
+steepest = max(max(over_tip, 0 - roll), abs(bank));
+lifted = vector(0, lift * sin(clamp(steepest - edge_tilt, 0, 90)), 0);
 tilted = spun
        * frame(heel - ball, axis_angle(side, min(roll, 0)))
-       * frame(tip - heel, axis_angle(side, max(roll, 0) * straightened + toe_lift))
+       * frame(tip - heel, axis_angle(side, over_tip))
        * frame(outer - tip, axis_angle(ahead, max(bank, 0)))
        * frame(inner - outer, axis_angle(ahead, min(bank, 0)));
-out at = tilted * (ball - inner);
+out at = tilted * (ball - inner) + lifted;
 out turn = rotation(tilted);
 rise = max(roll, 0) * (1 - straightened);
 risen = axis_angle(side, rise);
@@ -98,6 +102,8 @@ Computed wire(Builder& b, const Foot& foot) {
   given.emplace_back("knuckle", Value(Vec3{0, sole.ball, 0}));
   given.emplace_back("hinge_slide", Value(sole.hinge_slide));
   given.emplace_back("hinge_end", Value(sole.hinge));
+  given.emplace_back("lift", Value(sole.lift));
+  given.emplace_back("edge_tilt", Value(kEdgeTilt));
   given.emplace_back("outer", Value(Vec3{out > 0 ? sole.high : sole.low, 0, 0}));
   given.emplace_back("inner", Value(Vec3{out > 0 ? sole.low : sole.high, 0, 0}));
   return compute(b, foot.limb.joints[2], "roll", given, kStanding);

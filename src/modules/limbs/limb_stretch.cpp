@@ -231,12 +231,13 @@ void limb_stretch(Builder& b) {
   const LimbParts limb = limb_from(b, "limb");
   if (b.failed() || !check_new(b, limb)) return;
   const Attributes attributes = add_attributes(b, limb);
-  const Factors& fk = attributes.fk_length;
   const Factors ik = reach(b, limb, attributes);
   tell_solver(b, limb, ik);
-  Factors blended;
+  Factors fk, blended;
   for (std::size_t i = 0; i < 2; ++i) {
     const NodeId below = limb.joints[i + 1];
+    fk[i] = formula(b, below, "fk_length", fmt::format("max($0, {})", kShortest),
+                    {attributes.fk_length[i]});
     blended[i] = formula(b, below, "length", "$0 + ($1 - $0) * $2", {fk[i], ik[i], limb.ik_weight});
     lengthen(b, below, b.scene()[limb.fk[i + 1]].parent, fk[i]);
   }

@@ -22,9 +22,8 @@ constexpr double kBreadth = 0.055 / 0.152;
 /// Where ankle and ball stand between heel and tip.
 constexpr double kAnkleAt = 0.25, kBallAt = 0.73;
 
-/// Nothing of a foot is in the ground up to this tilt, in degrees. A point that reaches out beyond
-/// the edge only higher up needs the edge to lie further out the more the foot tilts.
-constexpr double kMostTilt = 60;
+/// Tilts beyond that at which the foot is looked at.
+constexpr double kSteepest = 90, kSteepStep = 5;
 
 /// Directions in which the outline is measured.
 constexpr int kDirections = 72;
@@ -85,13 +84,26 @@ void measure_joints(const Builder& b, const FootJoints& joints, Sole& sole) {
 }
 
 /// How far the edge has to lie out in a direction (unit, level), so that no vertex gets into the
-/// ground before the foot is tilted all the way. Vertices in the sole's frame.
-double reach(const std::vector<Vec3>& vertices, Vec3 direction) {
-  const double shrink = 1 / math::tan_degrees(kMostTilt);
+/// ground before the foot is tilted by so much. Vertices in the sole's frame.
+double reach(const std::vector<Vec3>& vertices, Vec3 direction, double tilt = kEdgeTilt) {
+  const double shrink = math::cos_degrees(tilt) / math::sin_degrees(tilt);
   double most = -1e300;
   for (const Vec3& v : vertices)
     most = std::max(most, v.x * direction.x + v.z * direction.z - v.y * shrink);
   return most;
+}
+
+/// Sole::lift that keeps every vertex above ground, whichever edge the foot stands on.
+double steep_lift(const std::vector<Vec3>& vertices) {
+  double lift = 0;
+  for (const Vec3 direction : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{1, 0, 0}, Vec3{-1, 0, 0}}) {
+    const double edge = reach(vertices, direction);
+    for (double tilt = kEdgeTilt + kSteepStep; tilt <= kSteepest; tilt += kSteepStep) {
+      const double sinks = math::sin_degrees(tilt) * (reach(vertices, direction, tilt) - edge);
+      lift = std::max(lift, sinks / math::sin_degrees(tilt - kEdgeTilt));
+    }
+  }
+  return lift;
 }
 
 /// The roundest oval that holds the outline.
@@ -118,6 +130,7 @@ void measure_vertices(const std::vector<Vec3>& vertices, Sole& sole) {
   sole.low = -reach(seen, {-1, 0, 0});
   sole.high = reach(seen, {1, 0, 0});
   sole.power = fitting_power(seen, sole);
+  sole.lift = steep_lift(seen);
 }
 
 /// A place of the foot, and how much of it moves with the toes, 0..1.
@@ -150,7 +163,7 @@ std::vector<Place> shared_with_toes(const Builder& b, const FootJoints& joints, 
 /// What they move in part sinks less by that part.
 void measure_hinge(const std::vector<Place>& places, Sole& sole) {
   const math::Affine inward = math::inverse(sole.frame);
-  for (double angle = kHingeStep; angle <= kMostTilt; angle += kHingeStep) {
+  for (double angle = kHingeStep; angle <= kEdgeTilt; angle += kHingeStep) {
     const double sine = math::sin_degrees(angle), rises = 1 - math::cos_degrees(angle);
     for (const Place& place : places) {
       if (place.of_toes > kAllOfToes) continue;

@@ -7,6 +7,11 @@
 
 namespace rigc::modules {
 
+/// Nothing of a foot is in the ground up to this tilt over an edge of its sole, in degrees. A point
+/// that reaches out beyond the edge only higher up needs the edge to lie further out the more the
+/// foot tilts.
+inline constexpr double kEdgeTilt = 60;
+
 /// Joints that say where a foot is; all but the ankle may be missing (invalid).
 struct FootJoints {
   NodeId ankle, ball, tip, heel;
@@ -30,6 +35,9 @@ struct Sole {
   /// The oval |x / a|^p + |z / c|^p = 1 about the middle, half as broad and long as the sole, holds
   /// its outline; this is p / (p - 1): 2 an ellipse, 1 a rectangle.
   double power = 2;
+  /// Tilted by more than `kEdgeTilt` degrees the foot lifts by this times the sine of what is more:
+  /// then it stands on what lies above the edge.
+  double lift = 0;
   double length() const { return tip - heel; }
   math::Vec3 middle() const { return {(low + high) / 2, 0, (heel + tip) / 2}; }
 };

@@ -21,7 +21,8 @@ namespace transform = scene::transform;
 /// sole about the line that touches the oval on that side. How far that line lies from the oval's
 /// middle is the oval's support function, in closed form: that of the curve |x / a|^p + |z / c|^p =
 /// 1 is (|a x|^q + |c z|^q)^(1 / q), where 1 / p + 1 / q = 1 (Rockafellar, Convex Analysis, section
-/// 15). In the first degrees of a lean the line slides out from the middle, so that it never jumps.
+/// 15). In the first degrees of a lean the line slides out from the middle, so that it never jumps;
+/// where it gets steep the foot lifts onto what lies above the line.
 constexpr const char* kProgram = R"(
 seen = inverse(axes) * control * axes;
 spin = axis_angle(up, twist(seen, up));
@@ -35,7 +36,8 @@ out_to = pow(pow(abs(toward.x) * half_breadth, power) + pow(abs(toward.z) * half
              1 / power);
 tilt = axis_angle(cross(up, toward), angle);
 pivot = middle + toward * (out_to * angle * angle / (angle * angle + 0.25));
-out at = spin * (pivot - tilt * pivot);
+lifted = up * (lift * sin(clamp(angle - edge_tilt, 0, 90)));
+out at = spin * (pivot - tilt * pivot) + lifted;
 out turned = spin * tilt;
 risen = axis_angle(side, bent);
 hinge = vector(0, 0, min(hinge_slide * bent, hinge_end));
@@ -117,6 +119,8 @@ void vector_foot(Builder& b) {
   given.emplace_back("half_breadth", Value((sole.high - sole.low) / 2));
   given.emplace_back("half_length", Value(sole.length() / 2));
   given.emplace_back("power", Value(sole.power));
+  given.emplace_back("lift", Value(sole.lift));
+  given.emplace_back("edge_tilt", Value(kEdgeTilt));
   given.emplace_back("hinge_slide", Value(sole.hinge_slide));
   given.emplace_back("hinge_end", Value(sole.hinge));
   const Computed leaned = compute(b, joint, "lean", given, kProgram);

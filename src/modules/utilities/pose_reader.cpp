@@ -37,11 +37,11 @@ NodeId joint_of(const Builder& b, NodeId node) {
   return joint.valid() ? joint : b.joint();
 }
 
-/// Left, up and forward of the character in the axes of the space at rest; on mirrored joints x is
+/// Left, up and forward of the character in the axes of the space at rest; on its right side x is
 /// turned round: away from the middle on both sides.
 Mat3 outward_axes(const Builder& b, NodeId joint, const Mat3& into) {
   const tags::Character& c = b.character();
-  const Vec3 out = is_mirrored(b, joint) ? -c.left : c.left;
+  const Vec3 out = is_mirrored(b, joint) || side_of(b, joint) < 0 ? -c.left : c.left;
   return {math::normalised(into * out), math::normalised(into * c.up),
           math::normalised(into * c.forward)};
 }

@@ -120,7 +120,7 @@ std::vector<Plug> weights(Builder& b, const Spaces& spaces, const std::string& n
   std::vector<Plug> all;
   for (std::size_t i = 0; i < shares.size(); ++i) {
     all.push_back(formula(b, {}, name + "_weight",
-                          fmt::format("$0 + (round($1) == {} ? $2 : 0)", i),
+                          fmt::format("$0 + (round(clamp($1, 0, {})) == {} ? $2 : 0)", last, i),
                           {shares[i], chosen, left}));
   }
   return all;

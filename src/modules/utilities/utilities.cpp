@@ -46,10 +46,11 @@ bool check_names(Builder& b, const std::vector<std::string>& names) {
     const bool word =
         is_name(names[i]) && names[i][0] != '_' && names[i].find('-') == std::string::npos;
     if (word && !twice) continue;
-    b.fail(codes::kNames, "names",
-           twice ? fmt::format("\"{}\" comes twice", names[i])
-                 : fmt::format("\"{}\" cannot name a value", printable(names[i])),
-           "letters, digits and _, starting with a letter");
+    if (twice)
+      b.fail(codes::kNames, "names", fmt::format("\"{}\" comes twice", names[i]));
+    else
+      b.fail(codes::kNames, "names", fmt::format("\"{}\" cannot name a value", printable(names[i])),
+             "letters, digits and _, starting with a letter");
     return false;
   }
   return true;
