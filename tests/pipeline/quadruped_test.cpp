@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Features of the quadruped that the biped has too, on the bare template and on the creatures of
-// the corpus: hips that go along with lifted hind legs, gimbals of head and legs.
+// the corpus: hips and knees that go along with legs, gimbals, heads that follow, tails that curl.
 #include <doctest/doctest.h>
 
 #include "eval/evaluate.h"
@@ -30,13 +30,14 @@ std::vector<Animal> animals() {
   return found;
 }
 
-gltf::Rig build(const Animal& animal) {
+gltf::Rig build(const Animal& animal,
+                const std::vector<std::string>& features = {"auto_hip=on", "gimbal=on"}) {
   pipeline::BuildRequest request;
   request.template_file = test::templates_folder() + "/quadruped.yaml";
   request.paths.templates = {test::templates_folder()};
   request.model = animal.model;
   request.map = animal.map;
-  request.features = {"auto_hip=on", "gimbal=on"};
+  request.features = features;
   Diagnostics diagnostics;
   const std::string out = test::test_out("quadruped_" + animal.name + ".glb");
   const auto built = pipeline::build(request, out, diagnostics);
@@ -66,14 +67,24 @@ Affine motion(const gltf::Rig& rig, NodeId joint, const std::vector<eval::Settin
   return eval::worlds(rig.scene, {joint}, settings)[0] * math::inverse(rig.scene.rest_world(joint));
 }
 
-/// Where a hind leg stands.
-NodeId paw_of(const gltf::Rig& rig, const std::string& leg) {
+/// The first control of a group that a command made in a role.
+NodeId control_of(const gltf::Rig& rig, const std::string& group, const std::string& command,
+                  const std::string& role = "control") {
   return nodes(rig,
                [&](const scene::Node& node) {
-                 return node.kind == scene::Kind::control && node.ids.local == leg &&
-                        node.identity.command == "paw" && node.identity.role == "control";
+                 return node.kind == scene::Kind::control && node.ids.local == group &&
+                        node.identity.command == command && node.identity.role == role;
                })
       .at(0);
+}
+
+/// Where a hind leg stands.
+NodeId paw_of(const gltf::Rig& rig, const std::string& leg) { return control_of(rig, leg, "paw"); }
+
+scene::Plug plug(const gltf::Rig& rig, NodeId node, const std::string& attribute) {
+  const auto found = rig.scene.find_plug(node, attribute);
+  REQUIRE(found);
+  return *found;
 }
 
 /// A paw high before the animal.
@@ -141,6 +152,82 @@ TEST_CASE("pipeline quadruped: gimbals turn the head and the first bones of the 
       CHECK(math::length(turned.y - expected.y) < 1e-6);
       CHECK(math::length(turned.z - expected.z) < 1e-6);
     }
+  }
+}
+
+TEST_CASE("pipeline quadruped: knees go along with their legs, about the hip") {
+  for (const Animal& animal : animals()) {
+    CAPTURE(animal.name);
+    const gltf::Rig rig = build(animal);
+    for (const std::string leg : {"hind_l", "hind_r"}) {
+      const NodeId ik = control_of(rig, leg, "limb", "ik");
+      const NodeId pole = control_of(rig, leg, "limb", "pole");
+      const NodeId hip = joint_of(rig, rig.scene[control_of(rig, leg, "limb", "fk")]);
+      const auto away = [&](const std::vector<eval::Setting>& settings) {
+        const auto worlds = eval::worlds(rig.scene, {pole, hip}, settings);
+        return math::length(worlds[0].origin - worlds[1].origin) / rig.skeleton.character.height;
+      };
+      const eval::Setting lift = lifted(rig, leg);
+      const scene::Plug amount = plug(rig, ik, "auto_pole");
+      CHECK(std::abs(away({lift, {amount, 1.0}}) - away({})) < 1e-6);
+      CHECK(std::abs(away({lift, {amount, 0.0}}) - away({})) > 0.01);
+    }
+  }
+}
+
+TEST_CASE("pipeline quadruped: the head follows neck, body or world") {
+  for (const Animal& animal : animals()) {
+    CAPTURE(animal.name);
+    const gltf::Rig rig = build(animal);
+    const auto heads = nodes(rig, [](const scene::Node& node) {
+      return !node.user.empty() && node.user[0].name == "follow";
+    });
+    if (heads.empty()) continue;
+    const NodeId body = control_of(rig, "torso", "body");
+    const auto turn = math::axis_angle(math::normalised(Vec3{0.3, 1, 0.2}), math::radians(40));
+    const auto turned = [&](double follow) {
+      const math::Mat3 m = motion(rig, heads[0],
+                                  {{{body, scene::transform::kRotation}, turn},
+                                   {plug(rig, heads[0], "follow"), follow}})
+                               .linear;
+      return math::degrees(std::acos((m.x.x + m.y.y + m.z.z - 1) / 2));
+    };
+    CHECK(turned(0) == doctest::Approx(40));
+    CHECK(turned(1) == doctest::Approx(40));
+    CHECK(turned(2) < 1e-4);
+  }
+}
+
+TEST_CASE("pipeline quadruped: a tail curls, and lies on a curve") {
+  for (const Animal& animal : animals()) {
+    CAPTURE(animal.name);
+    const gltf::Rig rig = build(animal, {"chain=on", "strand_fk=off"});
+    const auto joints = nodes(rig, [](const scene::Node& node) {
+      return node.is_skeleton() && node.ids.local == "tail";
+    });
+    if (joints.size() < 2) continue;
+    const NodeId settings = control_of(rig, "tail", "chain", "settings");
+    const NodeId first = control_of(rig, "tail", "chain", "fk");
+    const auto turn = math::axis_angle({0, 0, 1}, math::radians(20));
+    const auto bend = [&](double falloff) {
+      const std::vector<eval::Setting> keys{{{first, scene::transform::kRotation}, turn},
+                                            {plug(rig, settings, "falloff"), falloff}};
+      const math::Mat3 m = motion(rig, joints.back(), keys).linear;
+      return math::degrees(std::acos(std::min(1.0, (m.x.x + m.y.y + m.z.z - 1) / 2)));
+    };
+    CHECK(bend(0) == doctest::Approx(20));
+    CHECK(bend(1) == doctest::Approx(20.0 * static_cast<double>(joints.size())));
+    const NodeId end = nodes(rig, [](const scene::Node& node) {
+                         return node.kind == scene::Kind::control && node.ids.local == "tail" &&
+                                node.identity.role == "tweak";
+                       }).back();
+    const Vec3 by = Vec3{0, 0.1, 0} * rig.skeleton.character.height;
+    const auto place = eval::worlds(rig.scene, {joints.back()},
+                                    {{{end, scene::transform::kTranslate}, by},
+                                     {plug(rig, settings, "spline"), 1.0}})[0]
+                           .origin;
+    CHECK(math::length(place - rig.scene.rest_world(joints.back()).origin - by) <
+          0.2 * math::length(by));
   }
 }
 

@@ -44,11 +44,7 @@ constexpr double kHalfRadian = 28.64788975654116;
 /// Where the field turns quickly, as a unit vector of rig space.
 Vec3 unreached(const Builder& b, NodeId start) {
   const tags::Character& character = b.character();
-  const double side = math::dot(position(b, start), character.left) - b.side_middle();
-  const double inward = std::abs(side) < 0.01 * character.height ? 0
-                        : side > 0                               ? -kInward
-                                                                 : kInward;
-  return math::normalised(character.up * kUp + character.left * inward -
+  return math::normalised(character.up * kUp - character.left * (side_of(b, start) * kInward) -
                           character.forward * kBackward);
 }
 
