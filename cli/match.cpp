@@ -38,7 +38,7 @@ class Match final : public Command {
                  "Seconds between which this is done (default: the whole clip). Outside of them "
                  "everything stays as it was");
     options.list("--clip", "NAME", request_.clips,
-                 "Match in this clip, by name or number (default: all)");
+                 "Match in this clip, by name or number (default: all that key controls)");
     options.text("--fps", "N|source", request_.fps, false,
                  "Frames a second, or source: at the keys' own times (default)");
     declare_timing(options, timing_);
@@ -60,7 +60,10 @@ class Match final : public Command {
     std::string text = fmt::format("{}: {} clip{}, {} KB\n", printable(out_), done.clips.size(),
                                    done.clips.size() == 1 ? "" : "s", (done.bytes + 1023) / 1024);
     for (const pipeline::MatchedClip& clip : done.clips) {
-      text += fmt::format("  \"{}\"\n", printable(clip.name));
+      text += fmt::format("  \"{}\"{}\n", printable(clip.name),
+                          clip.passed_through ? ": as it was (it keys no control; `rigc transfer` "
+                                                "gives its motion to the controls)"
+                                              : "");
       for (const pipeline::MatchedLimb& limb : clip.limbs)
         text += fmt::format(
             "    {} to {}: {} frames, {} channels, {} keys; off by up to {} mm, {} "
@@ -80,7 +83,11 @@ class Match final : public Command {
         .key("clips")
         .begin_array();
     for (const pipeline::MatchedClip& clip : done.clips) {
-      w.begin_object().member("name", clip.name).key("limbs").begin_array();
+      w.begin_object()
+          .member("name", clip.name)
+          .member("passed_through", clip.passed_through)
+          .key("limbs")
+          .begin_array();
       for (const pipeline::MatchedLimb& limb : clip.limbs)
         w.begin_object()
             .member("limb", limb.limb)

@@ -31,7 +31,7 @@ constexpr double kShearReported = 1e-4;
 struct Bakeable {
   const gltf::Rig* rig;
   std::vector<bake::Standing> standings;
-  std::set<int> controls;  ///< glTF nodes that are not bones: what animators key
+  std::set<int> controls;  ///< glTF nodes that animators key
   std::vector<DrivenMorphs> morphs;
 };
 
@@ -44,10 +44,7 @@ std::vector<Bakeable> look_at_rigs(const gltf::File& file, const gltf::Slim& sli
     bakeable.morphs = find_driven_morphs(file, slim, rig, diagnostics);
     for (const gltf::Standing& s : gltf::standings(slim, rig))
       bakeable.standings.push_back({s.base, s.between, s.local, s.points});
-    for (scene::NodeId id : rig.scene.nodes()) {
-      const bool bone = rig.scene[id].kind == scene::Kind::joint;
-      if (!bone && rig.nodes[id.index] >= 0) bakeable.controls.insert(rig.nodes[id.index]);
-    }
+    bakeable.controls = keyable_nodes(rig);
   }
   return out;
 }
@@ -99,11 +96,6 @@ void add_report(const bake::Report& report, const gltf::Rig& rig, BakedClip& bak
   baked.shear.seconds = report.shear.seconds;
 }
 
-bool concerns(const anim::Clip& clip, const std::set<int>& controls) {
-  return std::any_of(clip.channels.begin(), clip.channels.end(),
-                     [&](const auto& channel) { return controls.count(channel.node) != 0; });
-}
-
 /// How many channels, not made by a bake, say what the rig says of joints. What it does not drive
 /// of a joint, as its scale, is evaluated with the rest.
 std::size_t count_foreign(const gltf::Rig& rig, const anim::Clip& clip) {
@@ -141,7 +133,7 @@ class ClipBaker {
     out = {clip.name, clip.source_animation, {}};
     std::set<int> controls, driven;
     for (const Bakeable& bakeable : rigs_) {
-      if (!concerns(clip, bakeable.controls)) continue;
+      if (!keys_any(clip, bakeable.controls)) continue;
       result.baked.passed_through = false;
       report_locked_keys(request_.file, *bakeable.rig, clip, diagnostics);
       if (!bake_rig(bakeable, clip, result, driven, diagnostics)) return {};

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/text.h"
 #include "pipeline/codes.h"
 
@@ -31,6 +33,20 @@ std::optional<std::set<std::size_t>> choose_clips(const std::string& file,
   if (!diagnostics.ok()) return std::nullopt;
   for (std::size_t i = 0; wanted.empty() && i < clips.size(); ++i) chosen.insert(i);
   return chosen;
+}
+
+std::set<int> keyable_nodes(const gltf::Rig& rig) {
+  std::set<int> keyable;
+  for (const scene::NodeId id : rig.scene.nodes()) {
+    const bool bone = rig.scene[id].kind == scene::Kind::joint;
+    if (!bone && rig.nodes[id.index] >= 0) keyable.insert(rig.nodes[id.index]);
+  }
+  return keyable;
+}
+
+bool keys_any(const anim::Clip& clip, const std::set<int>& keyable) {
+  return std::any_of(clip.channels.begin(), clip.channels.end(),
+                     [&](const auto& channel) { return keyable.contains(channel.node); });
 }
 
 std::optional<double> read_rate(const std::string& file, const std::string& fps,

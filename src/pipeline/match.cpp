@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "bake/rounded.h"
 #include "base/text.h"
 #include "base/trace.h"
 #include "gltf/clips.h"
@@ -31,6 +32,7 @@ struct Target {
   bake::MatchLimb limb;
   std::optional<bake::SpaceSwitch> spaces;
   std::size_t space = 0;  ///< number of the one to follow
+  std::set<int> keyable;  ///< nodes of its rig
 };
 
 struct Range {
@@ -69,7 +71,7 @@ std::vector<Target> choose_limbs(const MatchRequest& request, const std::vector<
   for (const gltf::Rig& rig : rigs)
     for (bake::MatchLimb& limb : bake::find_match_limbs(rig.scene)) {
       names.push_back(limb.name);
-      all.push_back({&rig, limb.name, std::move(limb), {}, 0});
+      all.push_back({&rig, limb.name, std::move(limb), {}, 0, {}});
     }
   const auto is_named = [](const std::string& name, const Target& target) {
     return name == "all" || name == target.limb.name;
@@ -95,7 +97,7 @@ std::vector<Target> controls_of(const std::string& text, const std::vector<gltf:
   const auto add = [&](const gltf::Rig& rig, scene::NodeId id) {
     const scene::Node& node = rig.scene[id];
     if (node.kind != scene::Kind::control) return;
-    found.push_back({&rig, node.name, {}, bake::find_spaces(rig.scene, id), 0});
+    found.push_back({&rig, node.name, {}, bake::find_spaces(rig.scene, id), 0, {}});
   };
   for (const gltf::Rig& rig : rigs)
     for (const scene::NodeId id : rig.scene.nodes())
@@ -168,14 +170,46 @@ std::vector<anim::Channel> changed_channels(const anim::Clip& before, const anim
   return changed;
 }
 
+/// The part of a range that a clip has; nothing where it has none.
+std::optional<Range> range_in(const MatchRequest& request, const Range& range,
+                              const anim::Clip& clip, Diagnostics& diagnostics) {
+  const double last = anim::last_time(clip);
+  const Place place(request.file, fmt::format("/animations/{}", clip.source_animation));
+  if (range.start && bake::rounded(*range.start) > last) {
+    diagnostics.report(codes::kMatchRequest, place,
+                       fmt::format("clip \"{}\" ends at {:.3g} seconds, before the range begins",
+                                   printable(clip.name), last));
+    return std::nullopt;
+  }
+  if (!range.end || bake::rounded(*range.end) <= last) return range;
+  diagnostics.report(codes::kRangeClipped, place,
+                     fmt::format("clip \"{}\" ends at {:.3g} seconds, before the range does",
+                                 printable(clip.name), last));
+  return Range{range.start, {}};
+}
+
+/// Targets of the rigs that a clip keys. With keys on another rig, a bake would make that one's
+/// joints again too.
+std::vector<Target> keyed_targets(const anim::Clip& clip, const std::vector<Target>& targets) {
+  std::vector<Target> keyed;
+  for (const Target& target : targets)
+    if (keys_any(clip, target.keyable)) keyed.push_back(target);
+  return keyed;
+}
+
 /// One limb after another: each sees the keys of those before.
-std::optional<MatchedClip> match_clip(const MatchRequest& request, const Range& range, double fps,
+std::optional<MatchedClip> match_clip(const MatchRequest& request, const Range& wanted, double fps,
                                       const anim::Clip& clip, const std::vector<Target>& targets,
                                       std::vector<gltf::ClipChange>& changes,
                                       Diagnostics& diagnostics) {
   const trace::Span span("match clip", trace::kStage, "clip", clip.name);
   MatchedClip out;
   out.name = clip.name;
+  out.passed_through = targets.empty();
+  if (out.passed_through) return out;
+  const auto in_clip = range_in(request, wanted, clip, diagnostics);
+  if (!in_clip) return std::nullopt;
+  const Range& range = *in_clip;
   anim::Clip now = clip;
   for (const Target& target : targets) {
     const gltf::Rig& rig = *target.rig;
@@ -201,6 +235,22 @@ std::optional<MatchedClip> match_clip(const MatchRequest& request, const Range& 
   }
   changes.push_back({{clip.name, clip.source_animation, changed_channels(clip, now)}, {}});
   return out;
+}
+
+/// Clips that are named must key what is matched, and of all at least one.
+bool check_keyed(const MatchRequest& request, const std::vector<anim::Clip>& clips,
+                 const std::set<std::size_t>& chosen, const std::vector<Target>& targets,
+                 Diagnostics& diagnostics) {
+  std::vector<const anim::Clip*> unkeyed;
+  for (const std::size_t i : chosen)
+    if (keyed_targets(clips[i], targets).empty()) unkeyed.push_back(&clips[i]);
+  if (request.clips.empty() && unkeyed.size() < chosen.size()) return true;
+  for (const anim::Clip* clip : unkeyed)
+    diagnostics.report(codes::kNothingToMatch,
+                       Place(request.file, fmt::format("/animations/{}", clip->source_animation)),
+                       fmt::format("clip \"{}\" keys no control", printable(clip->name)),
+                       "`rigc transfer` gives its motion to the controls");
+  return diagnostics.ok();
 }
 
 bool check_request(const MatchRequest& request, Diagnostics& diagnostics) {
@@ -234,15 +284,20 @@ std::optional<MatchedFile> match_file(const MatchRequest& request, const std::st
   if (!clips || !diagnostics.ok()) return std::nullopt;
   if (clips->clips.empty()) refuse(request, "the file has no clip to match in", diagnostics);
   const auto chosen = choose_clips(request.file, request.clips, clips->clips, diagnostics);
-  const std::vector<Target> targets = request.space.empty()
-                                          ? choose_limbs(request, *rigs, diagnostics)
-                                          : choose_controls(request, *rigs, diagnostics);
-  if (!chosen || !diagnostics.ok()) return std::nullopt;
+  std::vector<Target> targets = request.space.empty()
+                                    ? choose_limbs(request, *rigs, diagnostics)
+                                    : choose_controls(request, *rigs, diagnostics);
+  for (Target& target : targets) target.keyable = keyable_nodes(*target.rig);
+  if (!chosen || !diagnostics.ok() ||
+      !check_keyed(request, clips->clips, *chosen, targets, diagnostics))
+    return std::nullopt;
 
   MatchedFile result;
   std::vector<gltf::ClipChange> changes;
   for (const std::size_t i : *chosen) {
-    auto one = match_clip(request, *range, *rate, clips->clips[i], targets, changes, diagnostics);
+    const anim::Clip& clip = clips->clips[i];
+    auto one = match_clip(request, *range, *rate, clip, keyed_targets(clip, targets), changes,
+                          diagnostics);
     if (!one) return std::nullopt;
     result.clips.push_back(std::move(*one));
   }

@@ -20,10 +20,11 @@ struct MatchRequest {
   std::string to;                  ///< ik or fk; empty: spaces
   /// Controls that change their space: names of their nodes, or selectors of one each.
   std::vector<std::string> controls;
-  std::string space;               ///< that they follow then; empty: limbs
-  std::string range;               ///< START:END in seconds, either may be empty; empty: all
-  std::vector<std::string> clips;  ///< names or numbers; empty: all
-  std::string fps = "source";      ///< a number, or "source": at the keys' own times
+  std::string space;  ///< that they follow then; empty: limbs
+  std::string range;  ///< START:END in seconds, either may be empty; empty: all
+  /// Names or numbers; empty: all that key a control of the rigs in question.
+  std::vector<std::string> clips;
+  std::string fps = "source";  ///< a number, or "source": at the keys' own times
 };
 
 struct MatchedLimb {
@@ -34,6 +35,7 @@ struct MatchedLimb {
 
 struct MatchedClip {
   std::string name;
+  bool passed_through = false;  ///< it keys no control
   std::vector<MatchedLimb> limbs;
 };
 
