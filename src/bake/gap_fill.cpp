@@ -9,6 +9,8 @@
 namespace rigc::bake {
 namespace {
 
+constexpr std::size_t kBlock = 256;  // gaps that a thread measures in a row
+
 /// Between two frames of unit axes, radians.
 double angle_between(const math::Mat3& a, const math::Mat3& b) {
   double sum = 0;  // 8 sin^2 of half the angle
@@ -96,6 +98,20 @@ GapOff measure_gap(const std::function<double(std::size_t, Deviation&)>& compare
     inside = std::max(inside, compare(frame + k, off.inside));
   off.excess = inside - std::max(at_begin, at_end);
   return off;
+}
+
+bool for_gaps(std::size_t count, Threads& threads, Diagnostics& diagnostics,
+              const std::function<void(std::size_t first, std::size_t last, Diagnostics&)>& run) {
+  std::vector<Diagnostics> reported((count + kBlock - 1) / kBlock,
+                                    Diagnostics(diagnostics.sources()));
+  threads.for_each(reported.size(), [&](std::size_t i) {
+    run(i * kBlock, std::min((i + 1) * kBlock, count), reported[i]);
+  });
+  for (const Diagnostics& one : reported) {
+    diagnostics.append(one);
+    if (!one.ok()) return false;
+  }
+  return true;
 }
 
 bool fill_gaps(const std::vector<double>& times, double tolerance, std::vector<GapOff>& off,

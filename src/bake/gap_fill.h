@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "bake/gaps.h"
+#include "base/diagnostics.h"
+#include "base/threads.h"
 #include "scene/scene.h"
 
 namespace rigc::bake {
@@ -48,6 +50,11 @@ std::vector<double> times_in(const std::vector<std::size_t>& gaps, std::size_t f
 /// `compare` adds a frame's deviation and gives how far off it is; `frame`: of the gap's begin.
 GapOff measure_gap(const std::function<double(std::size_t, Deviation&)>& compare,
                    std::size_t frame);
+
+/// Runs over the gaps of a list, those from one number to another at a time, in threads; false
+/// where something was reported.
+bool for_gaps(std::size_t count, Threads& threads, Diagnostics& diagnostics,
+              const std::function<void(std::size_t first, std::size_t last, Diagnostics&)>& run);
 
 /// As a tolerance: no keys are added.
 inline constexpr double kAnyOff = std::numeric_limits<double>::infinity();

@@ -11,8 +11,6 @@
 namespace rigc::bake {
 namespace {
 
-constexpr std::size_t kBlock = 256;  // gaps that a thread measures in a row
-
 /// The rig under its clip, ready to be evaluated as a bake would.
 class Rig {
  public:
@@ -121,17 +119,11 @@ bool measure(const MeasureInput& input, const std::vector<double>& times,
   const trace::Span span("measure");
   Rig rig(input);
   if (!rig.compile(diagnostics)) return false;
-  std::vector<Diagnostics> reported((gaps.size() + kBlock - 1) / kBlock,
-                                    Diagnostics(diagnostics.sources()));
   Measurement measurement(input, rig, times, gaps, off);
-  threads.for_each(reported.size(), [&](std::size_t i) {
-    measurement.run(i * kBlock, std::min((i + 1) * kBlock, gaps.size()), threads, reported[i]);
-  });
-  for (const Diagnostics& one : reported) {
-    diagnostics.append(one);
-    if (!one.ok()) return false;
-  }
-  return true;
+  return for_gaps(gaps.size(), threads, diagnostics,
+                  [&](std::size_t first, std::size_t last, Diagnostics& own) {
+                    measurement.run(first, last, threads, own);
+                  });
 }
 
 }  // namespace rigc::bake

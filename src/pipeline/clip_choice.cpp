@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/text.h"
 #include "pipeline/codes.h"
@@ -60,6 +61,14 @@ std::optional<double> read_rate(const std::string& file, const std::string& fps,
       usable ? "--start lies after --end" : fmt::format("\"{}\" is no frame rate", printable(fps)),
       usable ? "" : "--fps takes a number above 0, or source for the keys' own times");
   return std::nullopt;
+}
+
+bool check_tolerance(const std::string& file, double mm, Diagnostics& diagnostics) {
+  if (mm >= 0 && std::isfinite(mm)) return true;
+  diagnostics.report(codes::kBadRange, Place(file),
+                     fmt::format("a tolerance of {} mm is not possible", mm),
+                     "--tolerance takes millimetres, 0 or more");
+  return false;
 }
 
 std::optional<std::vector<bake::Standing>> bake_standings(const gltf::File& file,

@@ -33,6 +33,9 @@ std::optional<double> read_rate(const std::string& file, const std::string& fps,
                                 const std::optional<double>& start,
                                 const std::optional<double>& end, Diagnostics& diagnostics);
 
+/// Whether a tolerance is 0 or more millimetres; reported where it is not.
+bool check_tolerance(const std::string& file, double mm, Diagnostics& diagnostics);
+
 /// Where the joints of a rig stand in the file, as a bake takes it.
 std::optional<std::vector<bake::Standing>> bake_standings(const gltf::File& file,
                                                           const gltf::Rig& rig,

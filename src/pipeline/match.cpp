@@ -150,13 +150,13 @@ std::vector<Target> choose_controls(const MatchRequest& request, const std::vect
 
 void report_off(const MatchRequest& request, const anim::Clip& clip, const MatchedLimb& limb,
                 Diagnostics& diagnostics) {
-  if (limb.off.percent <= kFar * 100 && limb.off.degrees <= kTurned) return;
+  const Off& off = limb.at_keys;
+  if (off.percent <= kFar * 100 && off.degrees <= kTurned) return;
   diagnostics.report(
       codes::kNotMatched, Place(request.file, fmt::format("/animations/{}", clip.source_animation)),
       fmt::format("clip \"{}\": {} is up to {} mm away (\"{}\") and turned by {} degrees (\"{}\")",
-                  printable(clip.name), printable(limb.limb), short_number(limb.off.mm),
-                  printable(limb.off.joint), short_number(limb.off.degrees),
-                  printable(limb.off.turned_joint)));
+                  printable(clip.name), printable(limb.limb), short_number(off.mm),
+                  printable(off.joint), short_number(off.degrees), printable(off.turned_joint)));
 }
 
 /// Channels of a clip that another has not: by their curves.
@@ -197,6 +197,25 @@ std::vector<Target> keyed_targets(const anim::Clip& clip, const std::vector<Targ
   return keyed;
 }
 
+std::optional<anim::Clip> match_target(const MatchRequest& request, const Target& target,
+                                       const bake::MatchTiming& when, const anim::Clip& now,
+                                       const anim::Clip& timing, bake::MatchReport& report,
+                                       Diagnostics& diagnostics) {
+  const gltf::Rig& rig = *target.rig;
+  bake::MatchTask task{rig.scene, rig.nodes, now, timing, when, 0, {}, {}, request.threads};
+  task.tolerance = request.tolerance_mm / 1000 * rig.skeleton.character.unit;
+  if (target.spaces) task.controls = {target.spaces->control};
+  task.solve = [&](const bake::MatchOptions& options) {
+    return target.spaces
+               ? bake::solve_space(rig.scene, rig.nodes, now, *target.spaces, target.space, options,
+                                   diagnostics)
+               : bake::solve_match(rig.scene, rig.nodes, now, target.limb, options, diagnostics);
+  };
+  bake::MatchOptions options;
+  options.to_ik = request.to == "ik";
+  return bake::match_keys(task, options, report, diagnostics);
+}
+
 /// One limb after another: each sees the keys of those before.
 std::optional<MatchedClip> match_clip(const MatchRequest& request, const Range& wanted, double fps,
                                       const anim::Clip& clip, const std::vector<Target>& targets,
@@ -207,30 +226,17 @@ std::optional<MatchedClip> match_clip(const MatchRequest& request, const Range& 
   out.name = clip.name;
   out.passed_through = targets.empty();
   if (out.passed_through) return out;
-  const auto in_clip = range_in(request, wanted, clip, diagnostics);
-  if (!in_clip) return std::nullopt;
-  const Range& range = *in_clip;
+  const auto range = range_in(request, wanted, clip, diagnostics);
+  if (!range) return std::nullopt;
   anim::Clip now = clip;
+  const bake::MatchTiming when{fps, range->start, range->end};
   for (const Target& target : targets) {
-    const gltf::Rig& rig = *target.rig;
-    bake::MatchOptions options;
-    options.to_ik = request.to == "ik";
-    auto times =
-        bake::match_times(rig.scene, rig.nodes, clip, fps, range.start, range.end, diagnostics);
-    if (!times) return std::nullopt;
-    options.times = std::move(*times);
-    options.opens = !range.start || options.times.front() <= anim::first_time(clip);
-    options.closes = !range.end || options.times.back() >= anim::last_time(clip);
     bake::MatchReport report;
-    const auto matched = target.spaces
-                             ? bake::solve_space(rig.scene, rig.nodes, now, *target.spaces,
-                                                 target.space, options, report, diagnostics)
-                             : bake::solve_match(rig.scene, rig.nodes, now, target.limb, options,
-                                                 report, diagnostics);
+    auto matched = match_target(request, target, when, now, clip, report, diagnostics);
     if (!matched) return std::nullopt;
-    now = bake::with_keys(rig.scene, rig.nodes, now, *matched, options, report);
-    out.limbs.push_back(
-        {target.name, options.times.size(), report.channels, report.keys, off_of(rig, report.off)});
+    now = std::move(*matched);
+    out.limbs.push_back({target.name, report, off_of(*target.rig, report.at_keys),
+                         off_of(*target.rig, report.between)});
     report_off(request, clip, out.limbs.back(), diagnostics);
   }
   changes.push_back({{clip.name, clip.source_animation, changed_channels(clip, now)}, {}});
@@ -273,6 +279,7 @@ std::optional<MatchedFile> match_file(const MatchRequest& request, const std::st
   const auto rate = read_rate(request.file, request.fps, {}, {}, diagnostics);
   const auto range = read_range(request, diagnostics);
   if (!rate || !range || !check_request(request, diagnostics) ||
+      !check_tolerance(request.file, request.tolerance_mm, diagnostics) ||
       !check_output_name(out, diagnostics))
     return std::nullopt;
   const auto file = gltf::open(request.file, diagnostics);

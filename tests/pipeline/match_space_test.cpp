@@ -85,6 +85,7 @@ TEST_CASE("pipeline match: a control that follows another space stays where it i
     const Shot after = test::read_shot(out);
     for (int clip = 0; clip < static_cast<int>(before.clips.size()); ++clip) {
       CHECK(value_at(after, clip, change.control, "space", 1.5) == change.number);
+      CHECK(done->clips[static_cast<std::size_t>(clip)].limbs.front().between.mm < 1.001);
       for (const double time : anim::key_times(before.clips[static_cast<std::size_t>(clip)])) {
         CAPTURE(time);
         const bool inside = time >= 1 && time <= 2;
