@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/off.h"
 #include "cli/timing.h"
 #include "pipeline/match.h"
 
@@ -38,9 +39,12 @@ class Match final : public Command {
                  "Seconds between which this is done (default: the whole clip). Outside of them "
                  "everything stays as it was");
     options.list("--clip", "NAME", request_.clips,
-                 "Match in this clip, by name or number (default: all)");
+                 "Match in this clip, by name or number (default: all that key controls)");
     options.text("--fps", "N|source", request_.fps, false,
                  "Frames a second, or source: at the keys' own times (default)");
+    options.number("--tolerance", "MM", tolerance_,
+                   "With --fps source: add keys where a joint would be off by more than this "
+                   "between two of the clip's own, in millimetres (default: 1; 0: none)");
     declare_timing(options, timing_);
   }
   void run(Session& session) override {
@@ -51,6 +55,9 @@ class Match final : public Command {
   void match(Session& session) {
     const bool of_limbs = request_.space.empty() && request_.controls.empty();
     if (of_limbs && request_.limbs.empty()) request_.limbs.emplace_back("all");
+    Threads threads;
+    request_.threads = &threads;
+    if (tolerance_) request_.tolerance_mm = *tolerance_;
     const auto done = pipeline::match_file(request_, out_, session.diagnostics);
     if (!done) return;
     session.out = session.json ? as_json(*done) : as_text(*done);
@@ -60,13 +67,17 @@ class Match final : public Command {
     std::string text = fmt::format("{}: {} clip{}, {} KB\n", printable(out_), done.clips.size(),
                                    done.clips.size() == 1 ? "" : "s", (done.bytes + 1023) / 1024);
     for (const pipeline::MatchedClip& clip : done.clips) {
-      text += fmt::format("  \"{}\"\n", printable(clip.name));
-      for (const pipeline::MatchedLimb& limb : clip.limbs)
-        text += fmt::format(
-            "    {} to {}: {} frames, {} channels, {} keys; off by up to {} mm, {} "
-            "degrees\n",
-            printable(limb.limb), target(), limb.frames, limb.channels, limb.keys,
-            pipeline::short_number(limb.off.mm), pipeline::short_number(limb.off.degrees));
+      text += fmt::format("  \"{}\"{}\n", printable(clip.name),
+                          clip.passed_through ? ": as it was (it keys no control; `rigc transfer` "
+                                                "gives its motion to the controls)"
+                                              : "");
+      for (const pipeline::MatchedLimb& limb : clip.limbs) {
+        const bake::MatchReport& report = limb.report;
+        text += fmt::format("    {} to {}: {}, {} channels, {} keys\n", printable(limb.limb),
+                            target(), frames_as_text(report.frames, report.inserted),
+                            report.channels, report.keys);
+        text += off_as_text("      ", report.frames, limb.at_keys, limb.between);
+      }
     }
     return text;
   }
@@ -80,19 +91,21 @@ class Match final : public Command {
         .key("clips")
         .begin_array();
     for (const pipeline::MatchedClip& clip : done.clips) {
-      w.begin_object().member("name", clip.name).key("limbs").begin_array();
-      for (const pipeline::MatchedLimb& limb : clip.limbs)
+      w.begin_object()
+          .member("name", clip.name)
+          .member("passed_through", clip.passed_through)
+          .key("limbs")
+          .begin_array();
+      for (const pipeline::MatchedLimb& limb : clip.limbs) {
         w.begin_object()
             .member("limb", limb.limb)
-            .member("frames", limb.frames)
-            .member("channels", limb.channels)
-            .member("keys", limb.keys)
-            .member("mm", limb.off.mm)
-            .member("percent_of_height", limb.off.percent)
-            .member("joint", limb.off.joint)
-            .member("degrees", limb.off.degrees)
-            .member("turned_joint", limb.off.turned_joint)
-            .end_object();
+            .member("frames", limb.report.frames)
+            .member("frames_added", limb.report.inserted)
+            .member("channels", limb.report.channels)
+            .member("keys", limb.report.keys);
+        write_off(w, limb.at_keys, limb.between);
+        w.end_object();
+      }
       w.end_array().end_object();
     }
     w.end_array().end_object();
@@ -105,6 +118,7 @@ class Match final : public Command {
   }
 
   pipeline::MatchRequest request_;
+  std::optional<double> tolerance_;
   std::string out_;
   Timing timing_;
 };

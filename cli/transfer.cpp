@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/off.h"
 #include "cli/timing.h"
 #include "pipeline/transfer.h"
 
@@ -59,14 +60,6 @@ class Transfer final : public Command {
     session.out = session.json ? as_json(*done) : as_text(*done);
   }
 
-  static std::string off_as_text(const pipeline::Off& off) {
-    return fmt::format(
-        "{} mm ({} % of height; \"{}\" at {:.2f} s), {} degrees (\"{}\" at {:.2f} s)",
-        pipeline::short_number(off.mm), pipeline::short_number(off.percent), printable(off.joint),
-        off.seconds, pipeline::short_number(off.degrees), printable(off.turned_joint),
-        off.turned_seconds);
-  }
-
   /// The first few names, and how many more there are.
   static std::string names_as_text(const std::vector<std::string>& names) {
     std::string text;
@@ -91,13 +84,11 @@ class Transfer final : public Command {
       return fmt::format("  \"{}\": as it was (nothing on joints that controls move)\n",
                          printable(clip.name));
     const bake::TransferReport& report = clip.report;
-    const std::string inserted =
-        report.inserted == 0 ? "" : fmt::format(" ({} added)", report.inserted);
-    std::string text = fmt::format("  \"{}\": {} frames{}, {} controls, {} channels, {} keys\n",
-                                   printable(clip.name), report.frames, inserted, report.controls,
-                                   report.channels, report.keys);
-    text += "    off at keys by up to " + off_as_text(clip.at_keys) + "\n";
-    if (report.frames > 1) text += "    between keys by up to " + off_as_text(clip.between) + "\n";
+    std::string text =
+        fmt::format("  \"{}\": {}, {} controls, {} channels, {} keys\n", printable(clip.name),
+                    frames_as_text(report.frames, report.inserted), report.controls,
+                    report.channels, report.keys);
+    text += off_as_text("    ", report.frames, clip.at_keys, clip.between);
     if (!clip.kept.empty())
       text +=
           "    channels stay for what controls do not say of " + names_as_text(clip.kept) + "\n";
@@ -114,19 +105,6 @@ class Transfer final : public Command {
     return text;
   }
 
-  static void write_off(json::Writer& w, const char* name, const pipeline::Off& off) {
-    w.key(name)
-        .begin_object()
-        .member("mm", off.mm)
-        .member("percent_of_height", off.percent)
-        .member("joint", off.joint)
-        .member("seconds", off.seconds)
-        .member("degrees", off.degrees)
-        .member("turned_joint", off.turned_joint)
-        .member("turned_seconds", off.turned_seconds)
-        .end_object();
-  }
-
   static void write_names(json::Writer& w, const char* key, const std::vector<std::string>& names) {
     w.key(key).begin_array();
     for (const std::string& name : names) w.value(name);
@@ -140,8 +118,7 @@ class Transfer final : public Command {
         .member("controls", clip.report.controls)
         .member("channels", clip.report.channels)
         .member("keys", clip.report.keys);
-    write_off(w, "at_keys", clip.at_keys);
-    write_off(w, "between_keys", clip.between);
+    write_off(w, clip.at_keys, clip.between);
     write_names(w, "kept_joints", clip.kept);
     write_names(w, "untouched_joints", clip.untouched);
     w.end_object();

@@ -63,11 +63,18 @@ bool Held::hold() {
   std::vector<Plug> asked = plugs(transform::kWorld);
   const std::vector<Plug> parents = plugs(transform::kParent);
   asked.insert(asked.end(), parents.begin(), parents.end());
-  const auto rows = frames_.evaluate(asked);
-  if (!rows) return false;
-  for (std::size_t i = 0; i < controls_.size(); ++i)
-    if (!is_same((*rows)[i], wanted_[i]))
+  // One may hang below another: toes below the hips.
+  for (std::size_t pass = 0; pass < controls_.size(); ++pass) {
+    const auto rows = frames_.evaluate(asked);
+    if (!rows) return false;
+    bool stayed = true;
+    for (std::size_t i = 0; i < controls_.size(); ++i) {
+      if (is_same((*rows)[i], wanted_[i])) continue;
       set(controls_[i], (*rows)[controls_.size() + i], wanted_[i]);
+      stayed = false;
+    }
+    if (stayed) break;
+  }
   return true;
 }
 

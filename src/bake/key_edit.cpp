@@ -27,7 +27,13 @@ struct Key {
 class Editor {
  public:
   explicit Editor(const KeyEdit& edit) : edit_(edit), width_(edit.rest.size()) {
-    interpolation_ = edit.curve ? edit.curve->interpolation : Interpolation::linear;
+    if (edit.curve) interpolation_ = edit.curve->interpolation;
+    const bool alone = !edit.curve || (edit.opens && edit.closes);
+    if (alone && edit.steps) interpolation_ = Interpolation::step;
+    if (!edit.steps && interpolation_ == Interpolation::step) {
+      interpolation_ = Interpolation::linear;
+      old_steps_ = true;
+    }
   }
 
   anim::Curve run() {
@@ -75,7 +81,21 @@ class Editor {
   template <class Keeps>
   void keep(Keeps keeps) {
     for (std::size_t i = 0; i < keys_before(); ++i)
-      if (Key key = old_key(i); keeps(key.time)) keys_.push_back(key);
+      if (Key key = old_key(i); keeps(key.time)) {
+        if (old_steps_) hold_until(key);
+        keys_.push_back(key);
+      }
+  }
+
+  /// Right before a key that a step leads to: lines there play the step too.
+  void hold_until(const Key& key) {
+    const float before = std::nextafter(key.time, -HUGE_VALF);
+    if (keys_.empty() || keys_.back().time >= before || keys_.back().value == key.value) return;
+    Key held;
+    held.time = before;
+    held.value = keys_.back().value;
+    join(held);
+    keys_.push_back(held);
   }
 
   /// A key on the old curve. A cubic one is divided there: both parts are the same cubics.
@@ -89,6 +109,7 @@ class Editor {
     } else {
       anim::sample(*edit_.curve, edit_.rotation, static_cast<double>(time), key.value.data());
     }
+    if (old_steps_) hold_until(key);
     keys_.push_back(key);
   }
 
@@ -199,6 +220,7 @@ class Editor {
       std::copy_n(edit_.values.begin() + static_cast<std::ptrdiff_t>(i * width_), width(),
                   key.value.begin());
       turn_to_last(key);
+      if (edit_.steps && interpolation_ != Interpolation::step && new_keys_) hold_until(key);
       join(key);
       keys_.push_back(key);
       new_keys_ = true;
@@ -244,7 +266,8 @@ class Editor {
 
   const KeyEdit& edit_;
   std::size_t width_;
-  Interpolation interpolation_;
+  Interpolation interpolation_ = Interpolation::linear;
+  bool old_steps_ = false;  // played by lines
   std::vector<Key> keys_;
   bool new_keys_ = false;  // the last key is one
 };

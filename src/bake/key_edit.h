@@ -17,11 +17,13 @@ struct KeyEdit {
   std::vector<double> values;  ///< [times][width]
   bool opens = false;          ///< nothing is played before the range
   bool closes = false;         ///< or after it
+  bool steps = false;          ///< each new value holds until the next
 };
 
 /// The curve with the new keys. One 32-bit float before the range and one after it there are keys
-/// that hold what was there. A new curve is linear; in a cubic one the new keys are joined by
-/// straight lines.
+/// that hold what was there. A new curve is linear, or one of steps; what is none of steps within
+/// and without plays its steps by two keys each, one 32-bit float apart. In a cubic curve the new
+/// keys are joined by straight lines.
 anim::Curve edited(const KeyEdit& edit);
 
 }  // namespace rigc::bake

@@ -4,12 +4,9 @@
 #include "bake/match.h"
 
 #include <algorithm>
-#include <cmath>
-#include <set>
 
 #include "bake/frames.h"
 #include "bake/key_edit.h"
-#include "bake/rounded.h"
 #include "bake/said.h"
 #include "eval/clip_inputs.h"
 
@@ -71,21 +68,20 @@ std::vector<MatchLimb> find_match_limbs(const scene::Scene& scene) {
   return limbs;
 }
 
-std::optional<std::vector<double>> match_times(
-    const scene::Scene& scene, const std::vector<int>& nodes, const anim::Clip& clip, double fps,
-    std::optional<double> start, std::optional<double> end, Diagnostics& diagnostics) {
-  const double first = rounded(std::max(start.value_or(anim::first_time(clip)), 0.0));
-  const double last = std::max(first, rounded(end.value_or(anim::last_time(clip))));
-  if (!check_frame_count((last - first) * fps + 2, kWidth, diagnostics)) return std::nullopt;
-  std::set<double> times{first, last};
-  if (fps > 0) {
-    for (double i = 1; first + i / fps < last; ++i) times.insert(rounded(first + i / fps));
-  } else {
-    for (const eval::ClipInput& input : eval::clip_inputs(scene, nodes, clip))
-      for (const float time : *input.curve->times)
-        if (const auto t = static_cast<double>(time); t > first && t < last) times.insert(t);
+std::optional<std::vector<double>> match_times(const scene::Scene& scene,
+                                               const std::vector<int>& nodes,
+                                               const anim::Clip& clip, const MatchTiming& when,
+                                               Diagnostics& diagnostics) {
+  anim::Clip keys;
+  for (const eval::ClipInput& input : eval::clip_inputs(scene, nodes, clip)) {
+    keys.channels.emplace_back().curve = *input.curve;
+    if (when.steps) keys.channels.back().curve.interpolation = anim::Interpolation::linear;
   }
-  return std::vector<double>(times.begin(), times.end());
+  Options options;
+  options.fps = when.fps;
+  options.start = when.start;
+  options.end = when.end;
+  return frame_times(clip, keys, options, kWidth, diagnostics);
 }
 
 anim::Clip with_keys(const scene::Scene& scene, const std::vector<int>& nodes,
@@ -111,7 +107,8 @@ anim::Clip with_keys(const scene::Scene& scene, const std::vector<int>& nodes,
                  options.times,
                  values.numbers,
                  options.opens,
-                 options.closes};
+                 options.closes,
+                 options.steps};
     const anim::Curve curve = edited(edit);
     ++report.channels;
     report.keys += curve.times->size();

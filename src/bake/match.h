@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "anim/clip.h"
-#include "bake/transfer.h"
+#include "bake/gap_fill.h"
 #include "base/diagnostics.h"
 #include "scene/scene.h"
 
@@ -35,11 +35,23 @@ struct MatchOptions {
   std::vector<double> times;  ///< seconds, rising, 32-bit floats, at least one: the range
   /// Nothing plays before or after the range.
   bool opens = true, closes = true;
+  bool steps = false;  ///< each value holds until the next
+};
+
+/// When there are keys.
+struct MatchTiming {
+  double fps = 0;                    ///< frames a second; 0: the keys' own times
+  std::optional<double> start, end;  ///< seconds; else the clip's
+  /// Else there is a time right before each step of a curve too.
+  bool steps = false;
 };
 
 struct MatchReport {
+  std::size_t frames = 0;
+  std::size_t inserted = 0;            ///< of these, between the clip's own keys
   std::size_t channels = 0, keys = 0;  ///< written
-  Deviation off;                       ///< of the limb's joints at the times, after rounding
+  Deviation at_keys;
+  Deviation between;  ///< at three times between each two
 };
 
 /// New values of attributes and transforms at the times: what an animator would set by hand.
@@ -51,22 +63,21 @@ struct Matched {
   std::vector<Values> values;  ///< the switch first
 };
 
-/// The times at which a clip can be matched: the keys' own from `start` to `end` and these two
-/// (frames a second: 0), or frames. Too many are reported.
+/// The times at which a clip can be matched: the keys' own from `start` to `end` and these two, or
+/// frames. Too many are reported.
 std::optional<std::vector<double>> match_times(const scene::Scene& scene,
                                                const std::vector<int>& nodes,
-                                               const anim::Clip& clip, double fps,
-                                               std::optional<double> start,
-                                               std::optional<double> end, Diagnostics& diagnostics);
+                                               const anim::Clip& clip, const MatchTiming& when,
+                                               Diagnostics& diagnostics);
 
 /// Solves in double; each value is rounded to the 32-bit float that a file holds. In IK `pin` and
 /// `slide` become 0; `squash` and `soft` become 0 in the range where the pose lies in theirs.
 std::optional<Matched> solve_match(const scene::Scene& scene, const std::vector<int>& nodes,
                                    const anim::Clip& clip, const MatchLimb& limb,
-                                   const MatchOptions& options, MatchReport& report,
-                                   Diagnostics& diagnostics);
+                                   const MatchOptions& options, Diagnostics& diagnostics);
 
-/// The clip with keys in the range for what was matched; keys elsewhere stay.
+/// The clip with keys in the range for what was matched; keys elsewhere stay. The report says how
+/// many.
 anim::Clip with_keys(const scene::Scene& scene, const std::vector<int>& nodes,
                      const anim::Clip& clip, const Matched& matched, const MatchOptions& options,
                      MatchReport& report);

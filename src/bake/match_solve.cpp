@@ -57,19 +57,15 @@ class Matcher {
         frames_(scene, options.times, diagnostics),
         held_(scene, frames_, limb.held) {}
 
-  std::optional<Matched> run(const std::vector<int>& nodes, const anim::Clip& clip,
-                             MatchReport& report) {
+  std::optional<Matched> run(const std::vector<int>& nodes, const anim::Clip& clip) {
     frames_.sample(nodes, clip);
     const auto now = pose();
     if (!now || !held_.note()) return std::nullopt;
     wanted_ = *now;
     set(limb_.mode, options_.to_ik ? 1 : 0);
     if (!held_.hold()) return std::nullopt;
-    const bool solved = options_.to_ik ? solve_ik() : solve_fk();
-    const auto after = solved ? pose() : std::nullopt;
-    if (!after) return std::nullopt;
+    if (!(options_.to_ik ? solve_ik() : solve_fk())) return std::nullopt;
     written_.insert(written_.end(), held_.written().begin(), held_.written().end());
-    measure(*after, report.off);
     return matched();
   }
 
@@ -320,29 +316,6 @@ class Matcher {
 
   // --- results ---
 
-  void measure(const std::vector<Pose>& poses, Deviation& off) const {
-    for (std::size_t f = 0; f < frames(); ++f) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Affine &a = poses[f][i], &b = wanted_[f][i];
-        const Quat turn = math::quaternion(math::orthonormal(a.linear) *
-                                           math::transposed(math::orthonormal(b.linear)));
-        const double angle =
-            2 * math::atan2(math::length({turn.x, turn.y, turn.z}), std::fabs(turn.w));
-        const double apart = distance(a.origin, b.origin);
-        if (apart > off.distance || !off.farthest.valid()) {
-          off.distance = apart;
-          off.farthest = limb_.joints[i];
-          off.farthest_at = options_.times[f];
-        }
-        if (angle > off.angle || !off.most_turned.valid()) {
-          off.angle = angle;
-          off.most_turned = limb_.joints[i];
-          off.most_turned_at = options_.times[f];
-        }
-      }
-    }
-  }
-
   Matched matched() const {
     Matched out;
     for (const Plug& plug : written_)
@@ -382,9 +355,8 @@ class Matcher {
 
 std::optional<Matched> solve_match(const scene::Scene& scene, const std::vector<int>& nodes,
                                    const anim::Clip& clip, const MatchLimb& limb,
-                                   const MatchOptions& options, MatchReport& report,
-                                   Diagnostics& diagnostics) {
-  return Matcher(scene, limb, options, diagnostics).run(nodes, clip, report);
+                                   const MatchOptions& options, Diagnostics& diagnostics) {
+  return Matcher(scene, limb, options, diagnostics).run(nodes, clip);
 }
 
 }  // namespace rigc::bake

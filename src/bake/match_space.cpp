@@ -3,7 +3,6 @@
 #include "bake/match_space.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "bake/held.h"
 #include "bake/said.h"
@@ -32,11 +31,10 @@ class SpaceMatcher {
       : scene_(scene),
         spaces_(spaces),
         frames_(scene, options.times, diagnostics),
-        held_(scene, frames_, held_with(scene, spaces.control)),
-        options_(options) {}
+        held_(scene, frames_, held_with(scene, spaces.control)) {}
 
   std::optional<Matched> run(const std::vector<int>& nodes, const anim::Clip& clip,
-                             std::size_t space, MatchReport& report) {
+                             std::size_t space) {
     frames_.sample(nodes, clip);
     const Plug world{spaces_.control, transform::kWorld};
     const auto wanted = frames_.evaluate({world});
@@ -48,9 +46,6 @@ class SpaceMatcher {
     stay(wanted->front(), parents->front());
     if (!held_.hold()) return std::nullopt;
     written_.insert(written_.end(), held_.written().begin(), held_.written().end());
-    const auto after = frames_.evaluate({world});
-    if (!after) return std::nullopt;
-    measure(wanted->front(), after->front(), report.off);
     Matched out;
     for (const Plug& plug : written_) out.values.push_back({plug, frames_.table.at(plug)});
     return out;
@@ -79,33 +74,10 @@ class SpaceMatcher {
     set({spaces_.control, transform::kRotation}, std::move(values.turns));
   }
 
-  void measure(const std::vector<double>& wanted, const std::vector<double>& got,
-               Deviation& off) const {
-    off.farthest = off.most_turned = spaces_.control;
-    off.farthest_at = off.most_turned_at = options_.times.front();
-    for (std::size_t f = 0; f < frames_.count(); ++f) {
-      const Affine a = affine(got, f), b = affine(wanted, f);
-      const Quat turn = math::quaternion(math::orthonormal(a.linear) *
-                                         math::transposed(math::orthonormal(b.linear)));
-      const double angle =
-          2 * math::atan2(math::length({turn.x, turn.y, turn.z}), std::fabs(turn.w));
-      const double apart = math::length(a.origin - b.origin);
-      if (apart > off.distance) {
-        off.distance = apart;
-        off.farthest_at = options_.times[f];
-      }
-      if (angle > off.angle) {
-        off.angle = angle;
-        off.most_turned_at = options_.times[f];
-      }
-    }
-  }
-
   const scene::Scene& scene_;
   const SpaceSwitch& spaces_;
   ClipFrames frames_;
   Held held_;
-  const MatchOptions& options_;
   std::vector<Plug> written_;
 };
 
@@ -134,8 +106,8 @@ std::optional<SpaceSwitch> find_spaces(const scene::Scene& scene, scene::NodeId 
 std::optional<Matched> solve_space(const scene::Scene& scene, const std::vector<int>& nodes,
                                    const anim::Clip& clip, const SpaceSwitch& spaces,
                                    std::size_t space, const MatchOptions& options,
-                                   MatchReport& report, Diagnostics& diagnostics) {
-  return SpaceMatcher(scene, spaces, options, diagnostics).run(nodes, clip, space, report);
+                                   Diagnostics& diagnostics) {
+  return SpaceMatcher(scene, spaces, options, diagnostics).run(nodes, clip, space);
 }
 
 }  // namespace rigc::bake

@@ -21,11 +21,11 @@ struct SpaceSwitch {
 /// Nothing where the rig names no spaces for the control, or not completely.
 std::optional<SpaceSwitch> find_spaces(const scene::Scene& scene, scene::NodeId control);
 
-/// As solve_match; `off` is that of the control. `space`: number of the one to follow. The
+/// As solve_match. `space`: number of the one to follow. The
 /// control's translation and rotation are solved; its scale stays.
 std::optional<Matched> solve_space(const scene::Scene& scene, const std::vector<int>& nodes,
                                    const anim::Clip& clip, const SpaceSwitch& spaces,
                                    std::size_t space, const MatchOptions& options,
-                                   MatchReport& report, Diagnostics& diagnostics);
+                                   Diagnostics& diagnostics);
 
 }  // namespace rigc::bake

@@ -72,25 +72,27 @@ class Run {
                                 Diagnostics& diagnostics) {
     const std::size_t begun_with = times.size();
     auto solution = solve_at(times, nullptr, diagnostics);
-    std::vector<std::size_t> gaps = all_gaps(times);
-    std::vector<GapOff> off(gaps.size());
-    while (solution) {
-      TransferReport one = report;
-      Transferred out = write_channels(
+    if (!solution) return std::nullopt;
+    Transferred out;
+    TransferReport one;
+    std::vector<GapOff> off;
+    const auto measure = [&](const std::vector<std::size_t>& gaps, std::vector<GapOff>& all) {
+      one = report;
+      out = write_channels(
           {scene_, nodes_, aims_, clip_, options_.switches, plan_, *solution, times}, one);
       const MeasureInput input{scene_, nodes_, aims_, options_.standings, changed(clip_, out)};
-      if (!measure(input, times, gaps, threads(), off, diagnostics)) return std::nullopt;
-      std::vector<double> more;
-      if (inserts()) gaps = split(gaps, options_.tolerance, times, off, more);
-      if (more.empty()) {
-        finish(times.size(), begun_with, off, one);
-        one.replaced = replaced_controls(scene_, nodes_, clip_, out);
-        report = std::move(one);
-        return out;
-      }
+      return bake::measure(input, times, gaps, threads(), all, diagnostics);
+    };
+    const auto add = [&](const std::vector<double>& more) {
       solution = extended(*solution, times, more, diagnostics);
-    }
-    return std::nullopt;
+      return solution.has_value();
+    };
+    if (!fill_gaps(times, inserts() ? options_.tolerance : kAnyOff, off, measure, add))
+      return std::nullopt;
+    finish(times.size(), begun_with, off, one);
+    one.replaced = replaced_controls(scene_, nodes_, clip_, out);
+    report = std::move(one);
+    return out;
   }
 
  private:

@@ -9,6 +9,7 @@
 
 #include "anim/clip.h"
 #include "bake/bake.h"
+#include "bake/gap_fill.h"
 #include "base/diagnostics.h"
 #include "base/threads.h"
 #include "scene/scene.h"
@@ -47,14 +48,6 @@ struct TransferOptions {
   Threads* threads = nullptr;
 };
 
-/// Where the rig is farthest from the joints' own clip.
-struct Deviation {
-  double distance = 0;                         ///< between the joint's origins, rig units
-  double angle = 0;                            ///< radians
-  scene::NodeId farthest, most_turned;         ///< invalid: none at all
-  double farthest_at = 0, most_turned_at = 0;  ///< seconds
-};
-
 struct TransferReport {
   std::size_t joints = 0;  ///< that the clip animates; 0: there was nothing to transfer
   std::size_t frames = 0;
@@ -66,8 +59,8 @@ struct TransferReport {
   std::vector<scene::NodeId> kept;
   std::vector<scene::NodeId> untouched;  ///< joints that nothing of the rig moves: as they were
   std::vector<scene::NodeId> replaced;   ///< controls whose keys of before are gone
-  Deviation at_keys;
-  Deviation between;  ///< at three times between each two
+  Deviation at_keys;                     ///< of the rig from the joints' own clip
+  Deviation between;                     ///< at three times between each two
 };
 
 struct Transferred {

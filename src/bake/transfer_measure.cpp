@@ -3,24 +3,13 @@
 #include "bake/transfer_measure.h"
 
 #include <algorithm>
-#include <numeric>
 
-#include "bake/gaps.h"
 #include "bake/joints.h"
 #include "bake/motion.h"
 #include "base/trace.h"
 
 namespace rigc::bake {
 namespace {
-
-constexpr std::size_t kBlock = 256;  // gaps that a thread measures in a row
-
-/// Between two frames of unit axes, radians.
-double angle_between(const math::Mat3& a, const math::Mat3& b) {
-  double sum = 0;  // 8 sin^2 of half the angle
-  for (const math::Vec3& apart : {a.x - b.x, a.y - b.y, a.z - b.z}) sum += math::dot(apart, apart);
-  return 2 * math::asin(math::sqrt(sum / 8));
-}
 
 /// The rig under its clip, ready to be evaluated as a bake would.
 class Rig {
@@ -81,10 +70,6 @@ class Rig {
   std::vector<int> places_;  // in bodies_, by aim; -1: a bake does not touch it
 };
 
-Gap gap_at(const std::vector<double>& times, std::size_t i) {
-  return {times[i], times[std::min(i + 1, times.size() - 1)]};
-}
-
 class Measurement {
  public:
   Measurement(const MeasureInput& input, const Rig& rig, const std::vector<double>& times,
@@ -93,47 +78,27 @@ class Measurement {
 
   /// Gaps number `first` to `last` of the list.
   void run(std::size_t first, std::size_t last, Threads& threads, Diagnostics& diagnostics) {
-    std::vector<double> times;
-    for (std::size_t i = first; i < last; ++i) {
-      const Gap gap = gap_at(times_, gaps_[i]);
-      times.push_back(gap.begin);
-      for (std::size_t k = 0; k < Gap::kInside; ++k) times.push_back(gap.inside(k));
-      times.push_back(gap.end);
-    }
-    const auto motion = rig_.run(std::move(times), threads, diagnostics);
+    const auto motion = rig_.run(times_in(gaps_, first, last, times_), threads, diagnostics);
     if (!motion) return;
     const auto wanted = play(aims_, motion->times);
+    const auto compare_at = [&](std::size_t frame, Deviation& deviation) {
+      return compare(wanted, *motion, frame, deviation);
+    };
     for (std::size_t i = first; i < last; ++i)
-      off_[gaps_[i]] = measure_gap(wanted, *motion, (i - first) * (Gap::kInside + 2));
+      off_[gaps_[i]] = measure_gap(compare_at, (i - first) * kGapTimes);
   }
 
  private:
   using Worlds = std::vector<std::vector<math::Affine>>;
 
-  /// `frame`: of the gap's begin.
-  GapOff measure_gap(const Worlds& wanted, const Motion& motion, std::size_t frame) const {
-    GapOff off;
-    const double at_begin = compare(wanted, motion, frame, off.at_ends);
-    const double at_end = compare(wanted, motion, frame + Gap::kInside + 1, off.at_ends);
-    double inside = 0;
-    for (std::size_t k = 1; k <= Gap::kInside; ++k)
-      inside = std::max(inside, compare(wanted, motion, frame + k, off.inside));
-    off.excess = inside - std::max(at_begin, at_end);
-    return off;
-  }
-
   double compare(const Worlds& wanted, const Motion& motion, std::size_t frame,
-                 Deviation& deviation) const {
+                 Deviation& largest) const {
     const std::vector<math::Affine> got = rig_.worlds(motion, frame);
     const double seconds = motion.times[frame];
     double off = 0;
     for (std::size_t i = 0; i < aims_.size(); ++i) {
       const math::Affine& aim = wanted[i][frame];
-      const scene::NodeId id = aims_[i].id;
-      const double distance = math::length(aim.origin - got[i].origin);
-      const double angle =
-          angle_between(math::orthonormal(aim.linear), math::orthonormal(got[i].linear));
-      keep_larger({distance, angle, id, id, seconds, seconds}, deviation);
+      keep_larger(deviation(aims_[i].id, aim, got[i], seconds), largest);
       off = std::max(off, rig_.off(i, aim, got[i]));
     }
     return off;
@@ -148,66 +113,17 @@ class Measurement {
 
 }  // namespace
 
-void keep_larger(const Deviation& one, Deviation& largest) {
-  if (one.farthest.valid() && (one.distance > largest.distance || !largest.farthest.valid())) {
-    largest.distance = one.distance;
-    largest.farthest = one.farthest;
-    largest.farthest_at = one.farthest_at;
-  }
-  if (one.most_turned.valid() && (one.angle > largest.angle || !largest.most_turned.valid())) {
-    largest.angle = one.angle;
-    largest.most_turned = one.most_turned;
-    largest.most_turned_at = one.most_turned_at;
-  }
-}
-
-std::vector<std::size_t> all_gaps(const std::vector<double>& times) {
-  std::vector<std::size_t> gaps(std::max<std::size_t>(times.size() - 1, 1));
-  std::iota(gaps.begin(), gaps.end(), std::size_t{0});
-  return gaps;
-}
-
 bool measure(const MeasureInput& input, const std::vector<double>& times,
              const std::vector<std::size_t>& gaps, Threads& threads, std::vector<GapOff>& off,
              Diagnostics& diagnostics) {
   const trace::Span span("measure");
   Rig rig(input);
   if (!rig.compile(diagnostics)) return false;
-  std::vector<Diagnostics> reported((gaps.size() + kBlock - 1) / kBlock,
-                                    Diagnostics(diagnostics.sources()));
   Measurement measurement(input, rig, times, gaps, off);
-  threads.for_each(reported.size(), [&](std::size_t i) {
-    measurement.run(i * kBlock, std::min((i + 1) * kBlock, gaps.size()), threads, reported[i]);
-  });
-  for (const Diagnostics& one : reported) {
-    diagnostics.append(one);
-    if (!one.ok()) return false;
-  }
-  return true;
-}
-
-std::vector<std::size_t> split(const std::vector<std::size_t>& gaps, double tolerance,
-                               const std::vector<double>& times, std::vector<GapOff>& off,
-                               std::vector<double>& more) {
-  std::vector<std::size_t> halves;
-  std::vector<GapOff> after;
-  std::size_t copied = 0;
-  for (const std::size_t i : gaps) {
-    const Gap gap = gap_at(times, i);
-    if (!gap.is_wide() || !(off[i].excess > tolerance)) continue;
-    const auto at = [&](std::size_t index) {
-      return off.begin() + static_cast<std::ptrdiff_t>(index);
-    };
-    after.insert(after.end(), at(copied), at(i));
-    copied = i + 1;
-    more.push_back(gap.middle());
-    halves.push_back(after.size());
-    halves.push_back(after.size() + 1);
-    after.resize(after.size() + 2);
-  }
-  after.insert(after.end(), off.begin() + static_cast<std::ptrdiff_t>(copied), off.end());
-  off = std::move(after);
-  return halves;
+  return for_gaps(gaps.size(), threads, diagnostics,
+                  [&](std::size_t first, std::size_t last, Diagnostics& own) {
+                    measurement.run(first, last, threads, own);
+                  });
 }
 
 }  // namespace rigc::bake

@@ -31,7 +31,7 @@ constexpr double kShearReported = 1e-4;
 struct Bakeable {
   const gltf::Rig* rig;
   std::vector<bake::Standing> standings;
-  std::set<int> controls;  ///< glTF nodes that are not bones: what animators key
+  std::set<int> controls;  ///< glTF nodes that animators key
   std::vector<DrivenMorphs> morphs;
 };
 
@@ -44,10 +44,7 @@ std::vector<Bakeable> look_at_rigs(const gltf::File& file, const gltf::Slim& sli
     bakeable.morphs = find_driven_morphs(file, slim, rig, diagnostics);
     for (const gltf::Standing& s : gltf::standings(slim, rig))
       bakeable.standings.push_back({s.base, s.between, s.local, s.points});
-    for (scene::NodeId id : rig.scene.nodes()) {
-      const bool bone = rig.scene[id].kind == scene::Kind::joint;
-      if (!bone && rig.nodes[id.index] >= 0) bakeable.controls.insert(rig.nodes[id.index]);
-    }
+    bakeable.controls = keyable_nodes(rig);
   }
   return out;
 }
@@ -99,11 +96,6 @@ void add_report(const bake::Report& report, const gltf::Rig& rig, BakedClip& bak
   baked.shear.seconds = report.shear.seconds;
 }
 
-bool concerns(const anim::Clip& clip, const std::set<int>& controls) {
-  return std::any_of(clip.channels.begin(), clip.channels.end(),
-                     [&](const auto& channel) { return controls.count(channel.node) != 0; });
-}
-
 /// How many channels, not made by a bake, say what the rig says of joints. What it does not drive
 /// of a joint, as its scale, is evaluated with the rest.
 std::size_t count_foreign(const gltf::Rig& rig, const anim::Clip& clip) {
@@ -123,8 +115,48 @@ struct ClipResult {
   bool good = false;
   std::size_t foreign = 0;  ///< channels that say what the rig says
   BakedClip baked;
-  gltf::ClipChange change;  ///< empty where the clip passes through
+  gltf::ClipChange change;             ///< empty where the clip passes through
+  float end = 0;                       ///< seconds
+  std::optional<anim::Channel> still;  ///< of a driven joint: plays what stands in the file
 };
+
+/// Time of the last key of a channel that is left or new; below 0 where there is none.
+double end_of(const anim::Clip& clip, const gltf::ClipChange& change) {
+  double end = -1;
+  const auto look_at = [&](const anim::Channel& channel) {
+    end = std::max(end, static_cast<double>(channel.curve.times->back()));
+  };
+  const std::set<int> dropped(change.dropped_channels.begin(), change.dropped_channels.end());
+  for (const anim::Channel& channel : clip.channels)
+    if (!dropped.contains(channel.source_channel)) look_at(channel);
+  for (const anim::Channel& channel : change.clip.channels) look_at(channel);
+  return end;
+}
+
+/// A channel with one key that says what stands in the file.
+anim::Channel standing_channel(const Bakeable& bakeable, int node, float seconds) {
+  const std::vector<int>& nodes = bakeable.rig->nodes;
+  const auto id =
+      static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
+  const math::Quat& q = bakeable.standings[id].local.rotation;
+  anim::Channel channel;
+  channel.node = node;
+  channel.path = anim::Path::rotation;
+  channel.curve.width = 4;
+  channel.curve.times = std::make_shared<const std::vector<float>>(1, seconds);
+  for (const double number : {q.x, q.y, q.z, q.w})
+    channel.curve.values.push_back(static_cast<float>(number));
+  return channel;
+}
+
+/// A last key that holds the value before it.
+void hold_until(float seconds, anim::Curve& curve) {
+  std::vector<float> times = *curve.times;
+  const std::vector<float> last(curve.values.end() - curve.width, curve.values.end());
+  times.push_back(seconds);
+  curve.values.insert(curve.values.end(), last.begin(), last.end());
+  curve.times = std::make_shared<const std::vector<float>>(std::move(times));
+}
 
 /// Bakes one clip over every rig whose controls it animates.
 class ClipBaker {
@@ -141,7 +173,7 @@ class ClipBaker {
     out = {clip.name, clip.source_animation, {}};
     std::set<int> controls, driven;
     for (const Bakeable& bakeable : rigs_) {
-      if (!concerns(clip, bakeable.controls)) continue;
+      if (!keys_any(clip, bakeable.controls)) continue;
       result.baked.passed_through = false;
       report_locked_keys(request_.file, *bakeable.rig, clip, diagnostics);
       if (!bake_rig(bakeable, clip, result, driven, diagnostics)) return {};
@@ -150,6 +182,7 @@ class ClipBaker {
     result.good = true;
     if (result.baked.passed_through) return result;
     drop_channels(clip, controls, driven, result.change);
+    keep_length(clip, result);
     report_clip(request_, clip, result.baked, result.foreign, diagnostics);
     // Where the rig stays, the next bake or update must know what it may make again.
     for (anim::Channel& channel : out.channels) channel.baked = request_.keep_rig;
@@ -174,9 +207,26 @@ class ClipBaker {
     for (const anim::Channel& channel : *morphs) report.keys += channel.curve.times->size();
     std::move(morphs->begin(), morphs->end(), std::back_inserter(channels));
     driven.insert(report.driven.begin(), report.driven.end());
+    if (!report.driven.empty() && !result.still)
+      result.still = standing_channel(bakeable, report.driven.front(), report.times.front());
+    result.end = report.times.back();
     result.foreign += count_foreign(rig, clip);
     add_report(report, rig, result.baked);
     return true;
+  }
+
+  /// A clip in which nothing moves, or nothing to the end, stays as long as it was.
+  void keep_length(const anim::Clip& clip, ClipResult& result) const {
+    std::vector<anim::Channel>& channels = result.change.clip.channels;
+    if (!result.still || end_of(clip, result.change) >= static_cast<double>(result.end)) return;
+    if (channels.empty()) {
+      channels.push_back(*result.still);
+      ++result.baked.channels;
+      ++result.baked.keys;
+    }
+    if (channels.front().curve.times->back() >= result.end) return;
+    hold_until(result.end, channels.front().curve);
+    ++result.baked.keys;
   }
 
   void drop_channels(const anim::Clip& clip, const std::set<int>& controls,

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/text.h"
 #include "pipeline/codes.h"
 
@@ -33,6 +36,20 @@ std::optional<std::set<std::size_t>> choose_clips(const std::string& file,
   return chosen;
 }
 
+std::set<int> keyable_nodes(const gltf::Rig& rig) {
+  std::set<int> keyable;
+  for (const scene::NodeId id : rig.scene.nodes()) {
+    const bool bone = rig.scene[id].kind == scene::Kind::joint;
+    if (!bone && rig.nodes[id.index] >= 0) keyable.insert(rig.nodes[id.index]);
+  }
+  return keyable;
+}
+
+bool keys_any(const anim::Clip& clip, const std::set<int>& keyable) {
+  return std::any_of(clip.channels.begin(), clip.channels.end(),
+                     [&](const auto& channel) { return keyable.contains(channel.node); });
+}
+
 std::optional<double> read_rate(const std::string& file, const std::string& fps,
                                 const std::optional<double>& start,
                                 const std::optional<double>& end, Diagnostics& diagnostics) {
@@ -44,6 +61,14 @@ std::optional<double> read_rate(const std::string& file, const std::string& fps,
       usable ? "--start lies after --end" : fmt::format("\"{}\" is no frame rate", printable(fps)),
       usable ? "" : "--fps takes a number above 0, or source for the keys' own times");
   return std::nullopt;
+}
+
+bool check_tolerance(const std::string& file, double mm, Diagnostics& diagnostics) {
+  if (mm >= 0 && std::isfinite(mm)) return true;
+  diagnostics.report(codes::kBadRange, Place(file),
+                     fmt::format("a tolerance of {} mm is not possible", mm),
+                     "--tolerance takes millimetres, 0 or more");
+  return false;
 }
 
 std::optional<std::vector<bake::Standing>> bake_standings(const gltf::File& file,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "bake/rounded.h"
 #include "base/text.h"
 #include "base/trace.h"
 #include "gltf/clips.h"
@@ -31,6 +32,7 @@ struct Target {
   bake::MatchLimb limb;
   std::optional<bake::SpaceSwitch> spaces;
   std::size_t space = 0;  ///< number of the one to follow
+  std::set<int> keyable;  ///< nodes of its rig
 };
 
 struct Range {
@@ -69,7 +71,7 @@ std::vector<Target> choose_limbs(const MatchRequest& request, const std::vector<
   for (const gltf::Rig& rig : rigs)
     for (bake::MatchLimb& limb : bake::find_match_limbs(rig.scene)) {
       names.push_back(limb.name);
-      all.push_back({&rig, limb.name, std::move(limb), {}, 0});
+      all.push_back({&rig, limb.name, std::move(limb), {}, 0, {}});
     }
   const auto is_named = [](const std::string& name, const Target& target) {
     return name == "all" || name == target.limb.name;
@@ -95,7 +97,7 @@ std::vector<Target> controls_of(const std::string& text, const std::vector<gltf:
   const auto add = [&](const gltf::Rig& rig, scene::NodeId id) {
     const scene::Node& node = rig.scene[id];
     if (node.kind != scene::Kind::control) return;
-    found.push_back({&rig, node.name, {}, bake::find_spaces(rig.scene, id), 0});
+    found.push_back({&rig, node.name, {}, bake::find_spaces(rig.scene, id), 0, {}});
   };
   for (const gltf::Rig& rig : rigs)
     for (const scene::NodeId id : rig.scene.nodes())
@@ -148,13 +150,13 @@ std::vector<Target> choose_controls(const MatchRequest& request, const std::vect
 
 void report_off(const MatchRequest& request, const anim::Clip& clip, const MatchedLimb& limb,
                 Diagnostics& diagnostics) {
-  if (limb.off.percent <= kFar * 100 && limb.off.degrees <= kTurned) return;
+  const Off& off = limb.at_keys;
+  if (off.percent <= kFar * 100 && off.degrees <= kTurned) return;
   diagnostics.report(
       codes::kNotMatched, Place(request.file, fmt::format("/animations/{}", clip.source_animation)),
       fmt::format("clip \"{}\": {} is up to {} mm away (\"{}\") and turned by {} degrees (\"{}\")",
-                  printable(clip.name), printable(limb.limb), short_number(limb.off.mm),
-                  printable(limb.off.joint), short_number(limb.off.degrees),
-                  printable(limb.off.turned_joint)));
+                  printable(clip.name), printable(limb.limb), short_number(off.mm),
+                  printable(off.joint), short_number(off.degrees), printable(off.turned_joint)));
 }
 
 /// Channels of a clip that another has not: by their curves.
@@ -168,39 +170,93 @@ std::vector<anim::Channel> changed_channels(const anim::Clip& before, const anim
   return changed;
 }
 
+/// The part of a range that a clip has; nothing where it has none.
+std::optional<Range> range_in(const MatchRequest& request, const Range& range,
+                              const anim::Clip& clip, Diagnostics& diagnostics) {
+  const double last = anim::last_time(clip);
+  const Place place(request.file, fmt::format("/animations/{}", clip.source_animation));
+  if (range.start && bake::rounded(*range.start) > last) {
+    diagnostics.report(codes::kMatchRequest, place,
+                       fmt::format("clip \"{}\" ends at {:.3g} seconds, before the range begins",
+                                   printable(clip.name), last));
+    return std::nullopt;
+  }
+  if (!range.end || bake::rounded(*range.end) <= last) return range;
+  diagnostics.report(codes::kRangeClipped, place,
+                     fmt::format("clip \"{}\" ends at {:.3g} seconds, before the range does",
+                                 printable(clip.name), last));
+  return Range{range.start, {}};
+}
+
+/// Targets of the rigs that a clip keys. With keys on another rig, a bake would make that one's
+/// joints again too.
+std::vector<Target> keyed_targets(const anim::Clip& clip, const std::vector<Target>& targets) {
+  std::vector<Target> keyed;
+  for (const Target& target : targets)
+    if (keys_any(clip, target.keyable)) keyed.push_back(target);
+  return keyed;
+}
+
+std::optional<anim::Clip> match_target(const MatchRequest& request, const Target& target,
+                                       const bake::MatchTiming& when, const anim::Clip& now,
+                                       const anim::Clip& timing, bake::MatchReport& report,
+                                       Diagnostics& diagnostics) {
+  const gltf::Rig& rig = *target.rig;
+  bake::MatchTask task{rig.scene, rig.nodes, now, timing, when, 0, {}, {}, request.threads};
+  task.tolerance = request.tolerance_mm / 1000 * rig.skeleton.character.unit;
+  if (target.spaces) task.controls = {target.spaces->control};
+  task.solve = [&](const bake::MatchOptions& options) {
+    return target.spaces
+               ? bake::solve_space(rig.scene, rig.nodes, now, *target.spaces, target.space, options,
+                                   diagnostics)
+               : bake::solve_match(rig.scene, rig.nodes, now, target.limb, options, diagnostics);
+  };
+  bake::MatchOptions options;
+  options.to_ik = request.to == "ik";
+  return bake::match_keys(task, options, report, diagnostics);
+}
+
 /// One limb after another: each sees the keys of those before.
-std::optional<MatchedClip> match_clip(const MatchRequest& request, const Range& range, double fps,
+std::optional<MatchedClip> match_clip(const MatchRequest& request, const Range& wanted, double fps,
                                       const anim::Clip& clip, const std::vector<Target>& targets,
                                       std::vector<gltf::ClipChange>& changes,
                                       Diagnostics& diagnostics) {
   const trace::Span span("match clip", trace::kStage, "clip", clip.name);
   MatchedClip out;
   out.name = clip.name;
+  out.passed_through = targets.empty();
+  if (out.passed_through) return out;
+  const auto range = range_in(request, wanted, clip, diagnostics);
+  if (!range) return std::nullopt;
   anim::Clip now = clip;
+  const bake::MatchTiming when{fps, range->start, range->end};
   for (const Target& target : targets) {
-    const gltf::Rig& rig = *target.rig;
-    bake::MatchOptions options;
-    options.to_ik = request.to == "ik";
-    auto times =
-        bake::match_times(rig.scene, rig.nodes, clip, fps, range.start, range.end, diagnostics);
-    if (!times) return std::nullopt;
-    options.times = std::move(*times);
-    options.opens = !range.start || options.times.front() <= anim::first_time(clip);
-    options.closes = !range.end || options.times.back() >= anim::last_time(clip);
     bake::MatchReport report;
-    const auto matched = target.spaces
-                             ? bake::solve_space(rig.scene, rig.nodes, now, *target.spaces,
-                                                 target.space, options, report, diagnostics)
-                             : bake::solve_match(rig.scene, rig.nodes, now, target.limb, options,
-                                                 report, diagnostics);
+    auto matched = match_target(request, target, when, now, clip, report, diagnostics);
     if (!matched) return std::nullopt;
-    now = bake::with_keys(rig.scene, rig.nodes, now, *matched, options, report);
-    out.limbs.push_back(
-        {target.name, options.times.size(), report.channels, report.keys, off_of(rig, report.off)});
+    now = std::move(*matched);
+    out.limbs.push_back({target.name, report, off_of(*target.rig, report.at_keys),
+                         off_of(*target.rig, report.between)});
     report_off(request, clip, out.limbs.back(), diagnostics);
   }
   changes.push_back({{clip.name, clip.source_animation, changed_channels(clip, now)}, {}});
   return out;
+}
+
+/// Clips that are named must key what is matched, and of all at least one.
+bool check_keyed(const MatchRequest& request, const std::vector<anim::Clip>& clips,
+                 const std::set<std::size_t>& chosen, const std::vector<Target>& targets,
+                 Diagnostics& diagnostics) {
+  std::vector<const anim::Clip*> unkeyed;
+  for (const std::size_t i : chosen)
+    if (keyed_targets(clips[i], targets).empty()) unkeyed.push_back(&clips[i]);
+  if (request.clips.empty() && unkeyed.size() < chosen.size()) return true;
+  for (const anim::Clip* clip : unkeyed)
+    diagnostics.report(codes::kNothingToMatch,
+                       Place(request.file, fmt::format("/animations/{}", clip->source_animation)),
+                       fmt::format("clip \"{}\" keys no control", printable(clip->name)),
+                       "`rigc transfer` gives its motion to the controls");
+  return diagnostics.ok();
 }
 
 bool check_request(const MatchRequest& request, Diagnostics& diagnostics) {
@@ -223,6 +279,7 @@ std::optional<MatchedFile> match_file(const MatchRequest& request, const std::st
   const auto rate = read_rate(request.file, request.fps, {}, {}, diagnostics);
   const auto range = read_range(request, diagnostics);
   if (!rate || !range || !check_request(request, diagnostics) ||
+      !check_tolerance(request.file, request.tolerance_mm, diagnostics) ||
       !check_output_name(out, diagnostics))
     return std::nullopt;
   const auto file = gltf::open(request.file, diagnostics);
@@ -234,15 +291,20 @@ std::optional<MatchedFile> match_file(const MatchRequest& request, const std::st
   if (!clips || !diagnostics.ok()) return std::nullopt;
   if (clips->clips.empty()) refuse(request, "the file has no clip to match in", diagnostics);
   const auto chosen = choose_clips(request.file, request.clips, clips->clips, diagnostics);
-  const std::vector<Target> targets = request.space.empty()
-                                          ? choose_limbs(request, *rigs, diagnostics)
-                                          : choose_controls(request, *rigs, diagnostics);
-  if (!chosen || !diagnostics.ok()) return std::nullopt;
+  std::vector<Target> targets = request.space.empty()
+                                    ? choose_limbs(request, *rigs, diagnostics)
+                                    : choose_controls(request, *rigs, diagnostics);
+  for (Target& target : targets) target.keyable = keyable_nodes(*target.rig);
+  if (!chosen || !diagnostics.ok() ||
+      !check_keyed(request, clips->clips, *chosen, targets, diagnostics))
+    return std::nullopt;
 
   MatchedFile result;
   std::vector<gltf::ClipChange> changes;
   for (const std::size_t i : *chosen) {
-    auto one = match_clip(request, *range, *rate, clips->clips[i], targets, changes, diagnostics);
+    const anim::Clip& clip = clips->clips[i];
+    auto one = match_clip(request, *range, *rate, clip, keyed_targets(clip, targets), changes,
+                          diagnostics);
     if (!one) return std::nullopt;
     result.clips.push_back(std::move(*one));
   }

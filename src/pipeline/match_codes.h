@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Diagnostic codes 840 to 843: match. Test: tests/cli/match_test.cpp
+// Diagnostic codes 840 to 845: match. Test: tests/cli/match_test.cpp
 #pragma once
 
 #include "base/diagnostics.h"
@@ -22,7 +22,14 @@ inline constexpr Code kNoMatchSpace{
     "--control takes one control, by its node's name or a selector, and --space one of those that "
     "`space_switch` lets it follow. Rigs of earlier versions do not say which these are: rebuild "
     "them."};
-inline constexpr const Code* kMatchCodes[] = {&kNoMatchLimb, &kMatchRequest, &kNotMatched,
-                                              &kNoMatchSpace};
+inline constexpr Code kNothingToMatch{
+    844, Severity::error, "the clip keys no control",
+    "A clip of joints alone has no keys to match: with some, a bake would make all of its joints "
+    "again, from controls that rest. `rigc transfer` gives its motion to the controls."};
+inline constexpr Code kRangeClipped{
+    845, Severity::warning, "range reaches beyond the clip",
+    "A match does not make clips longer: what of --range lies in the clip is matched."};
+inline constexpr const Code* kMatchCodes[] = {&kNoMatchLimb,  &kMatchRequest,   &kNotMatched,
+                                              &kNoMatchSpace, &kNothingToMatch, &kRangeClipped};
 
 }  // namespace rigc::pipeline::codes

@@ -206,14 +206,6 @@ std::optional<TransferredClip> transfer_clip(const TransferRequest& request,
   return out;
 }
 
-bool check_tolerance(const TransferRequest& request, Diagnostics& diagnostics) {
-  if (request.tolerance_mm >= 0 && std::isfinite(request.tolerance_mm)) return true;
-  diagnostics.report(codes::kBadRange, Place(request.file),
-                     fmt::format("a tolerance of {} mm is not possible", request.tolerance_mm),
-                     "--tolerance takes millimetres, 0 or more");
-  return false;
-}
-
 }  // namespace
 
 std::string short_number(double x) {
@@ -223,7 +215,8 @@ std::string short_number(double x) {
 std::optional<TransferredFile> transfer_file(const TransferRequest& request, const std::string& out,
                                              Diagnostics& diagnostics) {
   const auto rate = read_rate(request.file, request.fps, request.start, request.end, diagnostics);
-  if (!rate || !check_tolerance(request, diagnostics) || !check_output_name(out, diagnostics))
+  if (!rate || !check_tolerance(request.file, request.tolerance_mm, diagnostics) ||
+      !check_output_name(out, diagnostics))
     return std::nullopt;
   const auto file = gltf::open(request.file, diagnostics);
   if (!file) return std::nullopt;

@@ -36,14 +36,31 @@ TEST_CASE("bake key edit: every interpolation keeps what is outside of the range
        {curve(Interpolation::linear, {1, 5, 2}), curve(Interpolation::step, {1, 5, 2}),
         curve(Interpolation::cubic, {0, 1, 2, 3, 5, -1, 4, 2, 0})}) {
     CAPTURE(static_cast<int>(old.interpolation));
-    const bake::KeyEdit edit{&old, false, {0}, {f(0.8), f(1.2), f(1.8)}, {10, 20, -4}};
-    const anim::Curve now = bake::edited(edit);
-    CHECK(now.interpolation == old.interpolation);
-    for (std::size_t i = 0; i < 3; ++i) CHECK(at(now, edit.times[i]) == edit.values[i]);
-    for (const double time : kOutside)
-      CHECK(at(now, time) == doctest::Approx(at(old, time)).epsilon(1e-5));
-    const bool joined = old.interpolation != Interpolation::step;
-    CHECK(at(now, 1) == doctest::Approx(joined ? 15 : 10).epsilon(1e-5));
+    for (const bool steps : {false, true}) {
+      CAPTURE(steps);
+      bake::KeyEdit edit{&old, false, {0}, {f(0.8), f(1.2), f(1.8)}, {10, 20, -4}};
+      edit.steps = steps;
+      const anim::Curve now = bake::edited(edit);
+      for (std::size_t i = 0; i < 3; ++i) CHECK(at(now, edit.times[i]) == edit.values[i]);
+      for (const double time : kOutside)
+        CHECK(at(now, time) == doctest::Approx(at(old, time)).epsilon(1e-5));
+      CHECK(at(now, 1) == doctest::Approx(steps ? 10 : 15).epsilon(1e-5));
+      CHECK(at(now, 1.79) == doctest::Approx(steps ? 20 : -3.6).epsilon(1e-5));
+    }
+  }
+}
+
+TEST_CASE("bake key edit: steps stay steps wherever a curve can have them") {
+  using anim::Interpolation;
+  const anim::Curve blocked = curve(Interpolation::step, {1, 5, 2});
+  const anim::Curve smooth = curve(Interpolation::cubic, {0, 1, 2, 3, 5, -1, 4, 2, 0});
+  for (const anim::Curve* old : {static_cast<const anim::Curve*>(nullptr), &blocked, &smooth}) {
+    bake::KeyEdit edit{old, false, {7}, {0, 1, 3}, {10, 20, -4}, true, true, true};
+    const anim::Curve whole = bake::edited(edit);
+    CHECK(whole.interpolation == Interpolation::step);
+    CHECK(whole.values == std::vector<float>{10, 20, -4});
+    edit.opens = edit.closes = false;
+    CHECK((bake::edited(edit).interpolation == Interpolation::step) == (old != &smooth));
   }
 }
 

@@ -6,120 +6,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/match.h"
-#include "eval/clip_inputs.h"
+#include "bake/match_helpers.h"
 #include "support/models.h"
 
 using namespace rigc;
 using math::Vec3;
-using scene::NodeId;
-using scene::Plug;
+using test::Keys;
 
 namespace {
 
 namespace transform = scene::transform;
-
-std::string side(const std::string& s, double x, double elbow) {
-  const std::string limb = R"(
-    tags:
-      - {command: ik_fk_limb, with: {start: ., middle: arm_S.lower, end: arm_S.end}}
-      - {command: limb_stretch, with: {limb: arm_S/ik_fk_limb.ik}}
-      - {command: limb_wrist, with: {limb: arm_S/ik_fk_limb.ik}}
-)";
-  std::string text = fmt::format(R"(  - name: upper_S
-    parent: chest
-    at: [{}, 1.4, 0]
-    local: arm_S
-    label: upper)",
-                                 x * 0.2) +
-                     limb +
-                     fmt::format(R"(  - {{name: lower_S, parent: upper_S, at: [{}, 1.38, {}],
-     local: arm_S, label: lower}}
-  - {{name: end_S, parent: lower_S, at: [{}, 1.36, 0.03], local: arm_S, label: end}}
-)",
-                                 x * 0.5, elbow, x * 0.74);
-  for (std::size_t at = 0; (at = text.find("_S", at)) != std::string::npos;)
-    text.replace(at, 2, "_" + s);
-  return text;
-}
-
-/// `elbow`: how far before the shoulders it rests; behind them, as elbows bend, or not.
-std::string arms(double elbow = -0.04) {
-  return test::template_of(R"(joints:
-  - name: root
-    at: [0, 0, 0]
-    local: root
-    label: root
-    tags:
-      - {command: root, with: {drive: on}}
-  - name: chest
-    parent: root
-    at: [0, 1.2, 0]
-    local: torso
-    label: chest
-    tags:
-      - {command: control, with: {}}
-)" + side("l", 1, elbow) + side("r", -1, elbow));
-}
-
-/// Every transform is its own glTF node.
-std::vector<int> nodes_of(const scene::Scene& scene) {
-  std::vector<int> nodes(scene.size(), -1);
-  for (const NodeId id : scene.nodes())
-    if (scene::spec(scene[id].kind).is_transform) nodes[id.index] = static_cast<int>(id.index);
-  return nodes;
-}
-
-/// A clip that is put together key by key.
-class Keys {
- public:
-  Keys(const test::Rig& rig, std::vector<float> times)
-      : rig_(rig), times_(std::make_shared<const std::vector<float>>(std::move(times))) {}
-
-  template <class Make>
-  void add(const std::string& selector, int width, Make make) {
-    const Plug plug = rig_.plug(selector);
-    anim::Channel channel;
-    channel.node = static_cast<int>(plug.node.index);
-    channel.path = width == 3   ? anim::Path::translation
-                   : width == 4 ? anim::Path::rotation
-                                : anim::Path::attribute;
-    if (width == 1)
-      channel.attribute =
-          rig_.scene()[plug.node].user[plug.attribute - scene::kUserAttributes].name;
-    channel.curve.width = width;
-    channel.curve.times = times_;
-    for (std::size_t i = 0; i < times_->size(); ++i)
-      for (const double number : make()) channel.curve.values.push_back(static_cast<float>(number));
-    clip.channels.push_back(channel);
-  }
-  void translate(const std::string& control, test::Random& random, double extent) {
-    add(control + "@translate", 3, [&] {
-      const Vec3 v = random.vector(extent);
-      return std::vector<double>{v.x, v.y, v.z};
-    });
-  }
-  void turn(const std::string& control, test::Random& random) {
-    add(control + "@rotation", 4, [&] {
-      const math::Quat q = random.rotation();
-      return std::vector<double>{q.x, q.y, q.z, q.w};
-    });
-  }
-  /// A number of the range, or, as often, what does nothing.
-  void number(const std::string& plug, test::Random& random, double low, double high,
-              double nothing) {
-    add(plug, 1, [&] {
-      const double value = random.number(low, high);
-      return std::vector<double>{random.chance(0.5) ? nothing : value};
-    });
-  }
-
-  anim::Clip clip;
-
- private:
-  const test::Rig& rig_;
-  std::shared_ptr<const std::vector<float>> times_;
-};
 
 /// Random poses of an arm with every option, and of what it hangs on.
 anim::Clip random_poses(const test::Rig& rig, const std::string& group, std::size_t count,
@@ -155,22 +51,6 @@ anim::Clip random_poses(const test::Rig& rig, const std::string& group, std::siz
   return keys.clip;
 }
 
-/// Worlds of the arm's joints, by evaluating the rig with what the clip holds.
-std::vector<math::Affine> joints_at(const test::Rig& rig, const bake::MatchLimb& limb,
-                                    const anim::Clip& clip, double seconds) {
-  std::vector<eval::Setting> settings;
-  for (const eval::ClipInput& input : eval::clip_inputs(rig.scene(), nodes_of(rig.scene()), clip)) {
-    double n[4];
-    const bool rotation = input.plug.attribute == transform::kRotation;
-    anim::sample(*input.curve, rotation, seconds, n);
-    if (input.curve->width == 1) settings.push_back({input.plug, n[0]});
-    if (input.curve->width == 3) settings.push_back({input.plug, Vec3{n[0], n[1], n[2]}});
-    if (input.curve->width == 4)
-      settings.push_back({input.plug, math::Quat{n[0], n[1], n[2], n[3]}});
-  }
-  return eval::worlds(rig.scene(), {limb.joints.begin(), limb.joints.end()}, settings);
-}
-
 double angle_between(const math::Affine& a, const math::Affine& b) {
   const math::Quat q =
       math::quaternion(math::orthonormal(a.linear) * math::transposed(math::orthonormal(b.linear)));
@@ -199,20 +79,12 @@ void compare(const std::vector<math::Affine>& a, const std::vector<math::Affine>
     worst.degrees = std::max(worst.degrees, angle_between(a[i], b[i]));
 }
 
-const bake::MatchLimb& find(const std::vector<bake::MatchLimb>& limbs, const std::string& name) {
-  const auto found =
-      std::find_if(limbs.begin(), limbs.end(), [&](const auto& limb) { return limb.name == name; });
-  REQUIRE(found != limbs.end());
-  return *found;
-}
-
 anim::Clip matched(const test::Rig& rig, const bake::MatchLimb& limb, const anim::Clip& clip,
                    const bake::MatchOptions& options) {
-  const auto nodes = nodes_of(rig.scene());
+  const auto nodes = test::nodes_of(rig.scene());
   Diagnostics diagnostics;
   bake::MatchReport report;
-  const auto solved =
-      bake::solve_match(rig.scene(), nodes, clip, limb, options, report, diagnostics);
+  const auto solved = bake::solve_match(rig.scene(), nodes, clip, limb, options, diagnostics);
   REQUIRE_MESSAGE(solved, test::text(diagnostics));
   return bake::with_keys(rig.scene(), nodes, clip, *solved, options, report);
 }
@@ -220,7 +92,7 @@ anim::Clip matched(const test::Rig& rig, const bake::MatchLimb& limb, const anim
 bake::MatchOptions at_keys(const test::Rig& rig, const anim::Clip& clip, bool to_ik) {
   Diagnostics diagnostics;
   const auto times =
-      bake::match_times(rig.scene(), nodes_of(rig.scene()), clip, 0, {}, {}, diagnostics);
+      bake::match_times(rig.scene(), test::nodes_of(rig.scene()), clip, {}, diagnostics);
   REQUIRE(times);
   return {to_ik, *times, true, true};
 }
@@ -230,14 +102,14 @@ bake::MatchOptions at_keys(const test::Rig& rig, const anim::Clip& clip, bool to
 TEST_CASE("bake match: any pose of one side is one of the other") {
   for (const test::Model& model : test::models()) {
     CAPTURE(model.name);
-    const test::Rig rig(arms(), model.change);
+    const test::Rig rig(test::arms(), model.change);
     INFO(test::text(rig.diagnostics));
     REQUIRE(rig.clean());
     const auto limbs = bake::find_match_limbs(rig.scene());
     REQUIRE(limbs.size() == 2);
     for (const std::string group : {"arm_l", "arm_r"}) {
       CAPTURE(group);
-      const bake::MatchLimb& limb = find(limbs, group);
+      const bake::MatchLimb& limb = test::find(limbs, group);
       for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const anim::Clip clip = random_poses(rig, group, 24, seed * 77);
         anim::Clip now = clip;
@@ -247,7 +119,8 @@ TEST_CASE("bake match: any pose of one side is one of the other") {
           const bake::MatchOptions options = at_keys(rig, clip, to_ik);
           const anim::Clip next = matched(rig, limb, now, options);
           for (const double time : options.times)
-            compare(joints_at(rig, limb, clip, time), joints_at(rig, limb, next, time), worst);
+            compare(test::joints_at(rig, limb, clip, time), test::joints_at(rig, limb, next, time),
+                    worst);
           now = next;
         }
         CHECK(worst.distance < 1e-5);
@@ -260,12 +133,12 @@ TEST_CASE("bake match: any pose of one side is one of the other") {
 
 TEST_CASE(
     "bake match: an arm that rests bent a little to the wrong side is matched as it swivels") {
-  const test::Rig rig(arms(0.026));
+  const test::Rig rig(test::arms(0.026));
   INFO(test::text(rig.diagnostics));
   REQUIRE(rig.clean());
   REQUIRE(test::rest_error(rig) < 1e-9);
   const auto limbs = bake::find_match_limbs(rig.scene());
-  const bake::MatchLimb& limb = find(limbs, "arm_l");
+  const bake::MatchLimb& limb = test::find(limbs, "arm_l");
   test::Random random(19);
   std::vector<float> times;
   for (int i = 0; i < 40; ++i) times.push_back(static_cast<float>(i) * 0.25f);
@@ -281,9 +154,9 @@ TEST_CASE(
   const anim::Clip back = matched(rig, limb, in_ik, at_keys(rig, in_ik, false));
   Worst worst;
   for (const float time : times) {
-    const auto wanted = joints_at(rig, limb, keys.clip, static_cast<double>(time));
+    const auto wanted = test::joints_at(rig, limb, keys.clip, static_cast<double>(time));
     for (const anim::Clip* clip : {&in_ik, &back})
-      compare(wanted, joints_at(rig, limb, *clip, static_cast<double>(time)), worst);
+      compare(wanted, test::joints_at(rig, limb, *clip, static_cast<double>(time)), worst);
   }
   CHECK(worst.distance < 1e-5);
   CHECK(worst.degrees < 1e-3);
@@ -291,10 +164,10 @@ TEST_CASE(
 }
 
 TEST_CASE("bake match: in a range the other side has the pose, outside nothing changes") {
-  const test::Rig rig(arms());
+  const test::Rig rig(test::arms());
   const auto limbs = bake::find_match_limbs(rig.scene());
-  const bake::MatchLimb& limb = find(limbs, "arm_l");
-  const auto nodes = nodes_of(rig.scene());
+  const bake::MatchLimb& limb = test::find(limbs, "arm_l");
+  const auto nodes = test::nodes_of(rig.scene());
   for (const bool to_ik : {false, true}) {
     CAPTURE(to_ik);
     anim::Clip clip = random_poses(rig, "arm_l", 8, 5);
@@ -306,16 +179,18 @@ TEST_CASE("bake match: in a range the other side has the pose, outside nothing c
       return channel.attribute == (to_ik ? "upper_length" : "length");
     });
     Diagnostics diagnostics;
-    const auto times = bake::match_times(rig.scene(), nodes, clip, 0, 0.6, 1.3, diagnostics);
+    const auto times = bake::match_times(rig.scene(), nodes, clip, {0, 0.6, 1.3}, diagnostics);
     REQUIRE(times);
     CHECK(times->size() == 5);  // 0.6, 0.75, 1, 1.25, 1.3
     const bake::MatchOptions options{to_ik, *times, false, false};
     const anim::Clip now = matched(rig, limb, clip, options);
     Worst inside, outside;
     for (const double time : *times)
-      compare(joints_at(rig, limb, clip, time), joints_at(rig, limb, now, time), inside);
+      compare(test::joints_at(rig, limb, clip, time), test::joints_at(rig, limb, now, time),
+              inside);
     for (const double time : {0.0, 0.1, 0.25, 0.4, 0.59, 0.5999, 1.3001, 1.31, 1.5, 1.6, 2.0}) {
-      const auto a = joints_at(rig, limb, clip, time), b = joints_at(rig, limb, now, time);
+      const auto a = test::joints_at(rig, limb, clip, time),
+                 b = test::joints_at(rig, limb, now, time);
       outside.distance = std::max(outside.distance, test::largest_difference(a, b, 1));
     }
     CHECK(inside.distance < 1e-5);
@@ -331,9 +206,9 @@ TEST_CASE("bake match: in a range the other side has the pose, outside nothing c
 }
 
 TEST_CASE("bake match: options that do nothing to the pose stay, others become 0") {
-  const test::Rig rig(arms());
+  const test::Rig rig(test::arms());
   const auto limbs = bake::find_match_limbs(rig.scene());
-  const bake::MatchLimb& limb = find(limbs, "arm_l");
+  const bake::MatchLimb& limb = test::find(limbs, "arm_l");
   Keys keys(rig, {0});
   const auto constant = [&](const std::string& plug, double value) {
     keys.add(plug, 1, [&] { return std::vector<double>{value}; });
@@ -360,9 +235,9 @@ TEST_CASE("bake match: options that do nothing to the pose stay, others become 0
 }
 
 TEST_CASE("bake match: a bone that the clip scales is not one that got longer") {
-  const test::Rig rig(arms());
+  const test::Rig rig(test::arms());
   const auto limbs = bake::find_match_limbs(rig.scene());
-  const bake::MatchLimb& limb = find(limbs, "arm_l");
+  const bake::MatchLimb& limb = test::find(limbs, "arm_l");
   test::Random random(3);
   Keys keys(rig, {0, 0.5, 1});
   for (const char* joint : {".upper", ".lower", ".end"})
@@ -378,7 +253,8 @@ TEST_CASE("bake match: a bone that the clip scales is not one that got longer") 
   const anim::Clip now = matched(rig, limb, keys.clip, options);
   Worst worst;
   for (const double time : options.times)
-    compare(joints_at(rig, limb, keys.clip, time), joints_at(rig, limb, now, time), worst);
+    compare(test::joints_at(rig, limb, keys.clip, time), test::joints_at(rig, limb, now, time),
+            worst);
   CHECK(worst.distance < 1e-5);
   CHECK(worst.degrees < 1e-3);
   for (const anim::Channel& channel : now.channels)

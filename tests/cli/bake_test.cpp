@@ -2,9 +2,11 @@
 // rigc bake as its users run it: one file, many, threads, what it says.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
+#include "clip_helpers.h"
 #include "json_helpers.h"
 #include "process_helpers.h"
 
@@ -21,6 +23,36 @@ fs::path shots(const std::string& name) {
   REQUIRE(run_rigc({"build", biped, "-o", "shots/a.glb"}, {folder, {}}).status == 0);
   fs::copy_file(folder / "shots/a.glb", folder / "shots/act2/b.glb");
   REQUIRE(run_rigc({"bake", "shots/a.glb", "-o", "shots/plain.glb"}, {folder, {}}).status == 0);
+  return folder;
+}
+
+/// A rod in FK; its IK control is keyed, which moves no joint. `turned`: its FK controls rest so.
+fs::path still_rod(const std::string& name, bool turned) {
+  const fs::path folder = fresh_folder(name);
+  std::ofstream(folder / "rod.yaml", std::ios::binary) << R"(rigc: 1
+name: rod
+version: 1
+joints:
+  - name: upper
+    at: [0, 1.2, 0]
+    local: arm
+    label: upper
+    tags:
+      - {command: ik_fk_limb, with: {start: ., middle: arm.lower, end: arm.end, ik_fk: 0}}
+  - {name: lower, parent: upper, at: [0.3, 1.3, -0.05], local: arm, label: lower}
+  - {name: end, parent: lower, at: [0.5, 1.2, 0], local: arm, label: end}
+)";
+  const Outcome built = run_rigc({"build", "rod.yaml", "-o", "rod.gltf"}, {folder, {}});
+  REQUIRE_MESSAGE(built.status == 0, built.err);
+  auto document = nlohmann::json::parse(file_text(folder / "rod.gltf"));
+  std::size_t ik = 0;
+  for (auto& node : document["nodes"]) {
+    if (node.value("name", "") == "end_ik")
+      ik = static_cast<std::size_t>(&node - &document["nodes"][0]);
+    if (turned && node.value("name", "") == "lower_fk") node["rotation"] = {0, 0.6, 0, 0.8};
+  }
+  REQUIRE(ik > 0);
+  std::ofstream(folder / "rod.gltf", std::ios::binary) << animated(document.dump(), ik);
   return folder;
 }
 
@@ -93,6 +125,30 @@ TEST_CASE("cli bake: one file without a rig is an error") {
   CHECK(run.status == 1);
   CHECK(run.err.find("RIG0754") != std::string::npos);
   CHECK_FALSE(fs::exists(folder / "x.glb"));
+}
+
+TEST_CASE("cli bake: a clip in which nothing moves keeps its name and its length") {
+  for (const bool turned : {false, true}) {
+    CAPTURE(turned);
+    const fs::path folder = still_rod(turned ? "bake_posed" : "bake_still", turned);
+    for (const std::string rig : {"", "--keep-rig"}) {
+      std::vector<std::string> command{"bake", "rod.gltf", "-o", "still.gltf"};
+      if (!rig.empty()) command.push_back(rig);
+      const Outcome run = run_rigc(command, {folder, {}});
+      REQUIRE_MESSAGE(run.status == 0, run.err);
+      const auto document = nlohmann::json::parse(file_text(folder / "still.gltf"));
+      REQUIRE(document["animations"].size() == 1);
+      const auto& clip = document["animations"][0];
+      CHECK(clip.value("name", "") == "rise");
+      double end = 0;
+      for (const auto& sampler : clip["samplers"]) {
+        const auto& times = document["accessors"][sampler["input"].get<std::size_t>()];
+        end = std::max(end, times["max"][0].get<double>());
+      }
+      CHECK(end == 1);
+      for (const auto& channel : clip["channels"]) CHECK(channel["target"].contains("node"));
+    }
+  }
 }
 
 }  // namespace rigc::test

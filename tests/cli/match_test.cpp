@@ -93,8 +93,8 @@ TEST_CASE("cli match: IK controls get the pose and the switch, and the text says
       run_rigc({"match", "crane.gltf", "--limb", "arm", "--to", "ik", "-o", "shot.gltf"}, here);
   REQUIRE_MESSAGE(run.status == 0, run.err);
   CHECK(run.err.empty());
-  for (const char* part :
-       {"shot.gltf: 1 clip, ", "\"rise\"", "arm to ik: 2 frames, ", " keys; off by up to "})
+  for (const char* part : {"shot.gltf: 1 clip, ", "\"rise\"", "arm to ik: ", " keys\n",
+                           "off at keys by up to ", "between keys by up to "})
     CHECK_MESSAGE(run.out.find(part) != std::string::npos, run.out);
   const std::set<std::string> moved = targets(folder / "shot.gltf");
   for (const char* target : {"base_control@translation", "end_ik@translation", "end_ik@rotation",
@@ -110,9 +110,11 @@ TEST_CASE("cli match: IK controls get the pose and the switch, and the text says
   const auto& limb = report["clips"][0]["limbs"][0];
   CHECK(limb["limb"] == "arm");
   CHECK(limb["frames"] == 6);
-  CHECK(limb["mm"].get<double>() < 0.01);
-  CHECK(limb["degrees"].get<double>() < 1e-3);
-  CHECK(limb["joint"].get<std::string>().size() > 0);
+  CHECK(limb["frames_added"] == 0);
+  CHECK(limb["at_keys"]["mm"].get<double>() < 0.01);
+  CHECK(limb["at_keys"]["degrees"].get<double>() < 1e-3);
+  CHECK(limb["at_keys"]["joint"].get<std::string>().size() > 0);
+  CHECK(limb["between_keys"]["mm"].get<double>() < 1);
 }
 
 TEST_CASE("cli match: a clip of joints goes onto a limb that stretches as onto any other") {
@@ -143,7 +145,7 @@ TEST_CASE("cli match: a control follows another space from a time on") {
   more.push_back("--json");
   const auto report = nlohmann::json::parse(run_rigc(more, here).out);
   CHECK(report["to"] == "hook");
-  CHECK(report["clips"][0]["limbs"][0]["mm"].get<double>() < 1e-3);
+  CHECK(report["clips"][0]["limbs"][0]["at_keys"]["mm"].get<double>() < 1e-3);
 }
 
 TEST_CASE("cli match: a lock in the way is told") {
@@ -155,6 +157,50 @@ TEST_CASE("cli match: a lock in the way is told") {
       run_rigc({"match", "crane.gltf", "--to", "fk", "-o", "shot.gltf"}, {folder, {}});
   CHECK(run.status == 0);
   CHECK_MESSAGE(run.err.find("RIG0842") != std::string::npos, run.err);
+}
+
+TEST_CASE("cli match: clips that key no control stay as they were") {
+  const fs::path folder = crane("match_joints", arm("0", ""), "base_control");
+  const Surroundings here{folder, {}};
+  const std::string keyed = file_text(folder / "crane.gltf");
+  const auto base = node_named(nlohmann::json::parse(keyed), "base");
+  auto document = nlohmann::json::parse(animated(keyed, base));
+  document["animations"][1]["name"] = "walk";
+  std::ofstream(folder / "crane.gltf", std::ios::binary) << document.dump();
+
+  const Outcome all = run_rigc({"match", "crane.gltf", "--to", "ik", "-o", "shot.gltf"}, here);
+  REQUIRE_MESSAGE(all.status == 0, all.err);
+  CHECK_MESSAGE(all.out.find("\"walk\": as it was") != std::string::npos, all.out);
+  CHECK_MESSAGE(all.out.find("rigc transfer") != std::string::npos, all.out);
+  const auto after = nlohmann::json::parse(file_text(folder / "shot.gltf"));
+  CHECK(after["animations"][1]["channels"] == document["animations"][1]["channels"]);
+  CHECK(after["animations"][0]["channels"].size() > 1);
+
+  const Outcome named =
+      run_rigc({"match", "crane.gltf", "--to", "ik", "--clip", "walk", "-o", "walk.gltf"}, here);
+  CHECK(named.status == 1);
+  CHECK_MESSAGE(named.err.find("RIG0844") != std::string::npos, named.err);
+  document["animations"].erase(0);
+  std::ofstream(folder / "crane.gltf", std::ios::binary) << document.dump();
+  const Outcome none = run_rigc({"match", "crane.gltf", "--to", "ik", "-o", "walk.gltf"}, here);
+  CHECK(none.status == 1);
+  CHECK_MESSAGE(none.err.find("RIG0844") != std::string::npos, none.err);
+  CHECK(!fs::exists(folder / "walk.gltf"));
+}
+
+TEST_CASE("cli match: a range that reaches beyond the clip does not make it longer") {
+  const fs::path folder = crane("match_beyond", arm("0", ""), "base_control");
+  const Surroundings here{folder, {}};
+  for (const std::string fps : {"source", "10"}) {
+    const Outcome run = run_rigc(
+        {"match", "crane.gltf", "--to", "ik", "--range", "0.5:9", "--fps", fps, "-o", "shot.gltf"},
+        here);
+    CHECK(run.status == 0);
+    CHECK_MESSAGE(run.err.find("RIG0845") != std::string::npos, run.err);
+    const auto clips =
+        nlohmann::json::parse(run_rigc({"inspect", "shot.gltf", "--json"}, here).out)["clips"];
+    CHECK(clips[0]["duration"] == 1);
+  }
 }
 
 TEST_CASE("cli match: refuses what makes no sense, and writes nothing") {
@@ -179,7 +225,8 @@ TEST_CASE("cli match: refuses what makes no sense, and writes nothing") {
         {{"--to", "ik", "--limb", "leg"}, "RIG0840"},
         {{"--to", "ik", "--clip", "rize"}, "RIG0755"},
         {{"--to", "ik", "--fps", "0"}, "RIG0757"},
-        {{"--to", "ik", "--fps", "9999", "--range", "0:99999999"}, "RIG0601"}}) {
+        {{"--to", "ik", "--tolerance", "-1"}, "RIG0757"},
+        {{"--to", "ik", "--range", "5:9"}, "RIG0841"}}) {
     std::vector<std::string> arguments{"match", "crane.gltf", "-o", "shot.gltf"};
     arguments.insert(arguments.end(), mistake.options.begin(), mistake.options.end());
     const Outcome run = run_rigc(arguments, here);

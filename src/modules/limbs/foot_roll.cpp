@@ -5,7 +5,7 @@
 
 #include "modules/codes.h"
 #include "modules/layers.h"
-#include "modules/limbs/limb.h"
+#include "modules/limbs/limb_match.h"
 #include "modules/limbs/sole.h"
 #include "modules/registry.h"
 
@@ -110,7 +110,7 @@ Computed wire(Builder& b, const Foot& foot) {
 }
 
 /// The toes' control rides on the foot as before; in IK it turns with the sole, which stays on the
-/// ground where the foot rolls over the ball.
+/// ground where the foot rolls over the ball. Who keys the limb otherwise keys it too.
 void hold_toes(Builder& b, const Foot& foot, NodeId tapped) {
   namespace constraint = scene::constraint;
   const NodeId zero = zero_of(b, foot.toes);
@@ -121,6 +121,7 @@ void hold_toes(Builder& b, const Foot& foot, NodeId tapped) {
   b.connect(foot.limb.fk_weight, {node, constraint::kWeights, 0});
   b.connect(foot.limb.ik_weight, {node, constraint::kWeights, 1});
   b.reconnect({node, constraint::kRotation}, {zero, transform::kRotation});
+  add_held(b, foot.limb.match, foot.toes);
 }
 
 /// The control that the foot rolls under; fails where it does not carry the goal.

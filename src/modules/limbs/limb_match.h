@@ -17,7 +17,8 @@ using Meanings = std::vector<std::pair<std::string, Plug>>;
 /// The node of a limb. `limb.ik_weight` is the switch.
 NodeId make_match(Builder& b, const LimbParts& limb, const Meanings& meanings);
 
-/// A control above the limb that goes along with what keys the limb. Nothing where `match` is
+/// A control that goes along with what keys the limb: above it, as a shoulder, or at its end, as
+/// toes. Nothing where `match` is
 /// invalid: a limb by FK or by IK alone.
 void add_held(Builder& b, NodeId match, NodeId control);
 
