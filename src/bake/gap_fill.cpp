@@ -24,7 +24,7 @@ Gap gap_at(const std::vector<double>& times, std::size_t i) {
 
 /// Gives the new gaps as they are counted when `more`, their middles, are among the times; so is
 /// `off` then.
-std::vector<std::size_t> split(const std::vector<std::size_t>& gaps, double tolerance,
+std::vector<std::size_t> split(const std::vector<std::size_t>& gaps, const Filling& filling,
                                const std::vector<double>& times, std::vector<GapOff>& off,
                                std::vector<double>& more) {
   std::vector<std::size_t> halves;
@@ -32,7 +32,7 @@ std::vector<std::size_t> split(const std::vector<std::size_t>& gaps, double tole
   std::size_t copied = 0;
   for (const std::size_t i : gaps) {
     const Gap gap = gap_at(times, i);
-    if (!gap.is_wide() || !(off[i].excess > tolerance)) continue;
+    if (!gap.is_wide(filling.shortest) || !(off[i].excess > filling.tolerance)) continue;
     const auto at = [&](std::size_t index) {
       return off.begin() + static_cast<std::ptrdiff_t>(index);
     };
@@ -114,7 +114,7 @@ bool for_gaps(std::size_t count, Threads& threads, Diagnostics& diagnostics,
   return true;
 }
 
-bool fill_gaps(const std::vector<double>& times, double tolerance, std::vector<GapOff>& off,
+bool fill_gaps(const std::vector<double>& times, const Filling& filling, std::vector<GapOff>& off,
                const std::function<bool(const std::vector<std::size_t>& gaps,
                                         std::vector<GapOff>& off)>& measure,
                const std::function<bool(const std::vector<double>& more)>& add) {
@@ -123,7 +123,7 @@ bool fill_gaps(const std::vector<double>& times, double tolerance, std::vector<G
   for (;;) {
     if (!measure(gaps, off)) return false;
     std::vector<double> more;
-    gaps = split(gaps, tolerance, times, off, more);
+    gaps = split(gaps, filling, times, off, more);
     if (more.empty()) return true;
     if (!add(more)) return false;
   }

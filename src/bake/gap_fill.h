@@ -56,13 +56,17 @@ GapOff measure_gap(const std::function<double(std::size_t, Deviation&)>& compare
 bool for_gaps(std::size_t count, Threads& threads, Diagnostics& diagnostics,
               const std::function<void(std::size_t first, std::size_t last, Diagnostics&)>& run);
 
-/// As a tolerance: no keys are added.
-inline constexpr double kAnyOff = std::numeric_limits<double>::infinity();
+/// Which gaps are halved.
+struct Filling {
+  /// Those that are off by more, rig units. Infinite: none.
+  double tolerance = std::numeric_limits<double>::infinity();
+  double shortest = Gap::kShortest;  ///< but none that are shorter, seconds
+};
 
-/// Measures all gaps between `times`, and halves those that are off by more than `tolerance`, but
-/// those below a millisecond, until none is left. `measure` fills what those gaps of all are off
-/// by; `add` solves at more times and puts them among `times`. False where one of them failed.
-bool fill_gaps(const std::vector<double>& times, double tolerance, std::vector<GapOff>& off,
+/// Measures all gaps between `times`, and halves them as asked until none is left. `measure` fills
+/// what those gaps of all are off by; `add` solves at more times and puts them among `times`. False
+/// where one of them failed.
+bool fill_gaps(const std::vector<double>& times, const Filling& filling, std::vector<GapOff>& off,
                const std::function<bool(const std::vector<std::size_t>& gaps,
                                         std::vector<GapOff>& off)>& measure,
                const std::function<bool(const std::vector<double>& more)>& add);

@@ -11,7 +11,7 @@ namespace rigc::bake {
 
 struct Gap {
   static constexpr std::size_t kInside = 3;  ///< times at which it is looked at
-  static constexpr double kShortest = 1e-3;  ///< seconds; shorter ones are not halved
+  static constexpr double kShortest = 1e-3;  ///< seconds; shorter ones mostly are not halved
 
   double begin, end;  ///< seconds
 
@@ -21,8 +21,10 @@ struct Gap {
     return rounded(begin + (end - begin) * share);
   }
   double middle() const { return inside(kInside / 2); }
-  /// Whether it can be halved.
-  bool is_wide() const { return end - begin > kShortest && inside(0) > begin && middle() < end; }
+  /// Whether it can be halved, and is longer than so many seconds.
+  bool is_wide(double shortest = kShortest) const {
+    return end - begin > shortest && inside(0) > begin && middle() < end;
+  }
 };
 
 }  // namespace rigc::bake

@@ -17,6 +17,9 @@ namespace {
 
 /// Numbers (in units of 1 and of their size) that differ by less hold.
 constexpr double kHeld = 1e-6;
+/// Gaps between keys that are not halved, seconds: an elbow that is nearly straight moves by
+/// millimetres where its hand moves by thousandths, and nobody wants a thousand keys a second.
+constexpr double kShortest = 1.0 / 120;
 
 bool is_step(const anim::Curve& curve) {
   return curve.interpolation == anim::Interpolation::step && curve.times->size() > 1;
@@ -112,8 +115,9 @@ class Keyer {
              solve(report);
     };
     const bool inserts = task_.when.fps == 0 && task_.tolerance > 0;
-    if (!fill_gaps(options_.times, inserts ? task_.tolerance : kAnyOff, off, measure, add))
-      return std::nullopt;
+    Filling filling{.shortest = kShortest};
+    if (inserts) filling.tolerance = task_.tolerance;
+    if (!fill_gaps(options_.times, filling, off, measure, add)) return std::nullopt;
     report.frames = options_.times.size();
     report.inserted = report.frames - begun_with;
     for (const GapOff& gap : off) {

@@ -87,8 +87,9 @@ class Run {
       solution = extended(*solution, times, more, diagnostics);
       return solution.has_value();
     };
-    if (!fill_gaps(times, inserts() ? options_.tolerance : kAnyOff, off, measure, add))
-      return std::nullopt;
+    Filling filling;
+    if (inserts()) filling.tolerance = options_.tolerance;
+    if (!fill_gaps(times, filling, off, measure, add)) return std::nullopt;
     finish(times.size(), begun_with, off, one);
     one.replaced = replaced_controls(scene_, nodes_, clip_, out);
     report = std::move(one);
