@@ -112,7 +112,7 @@ class Build final : public Command {
     options.flag("--skeleton-only", request_.skeleton_only,
                  "Make the skeleton with its tags, run nothing");
     options.flag("--split-weights", request_.split_weights,
-                 "Let the model's skins share their weights with twist joints that the rig makes");
+                 "Let the model's skins share their weights with joints that the rig makes");
     declare_timing(options, timing_);
     declare_paths(options, request_.paths);
   }

@@ -25,6 +25,7 @@ class Rebuild final : public Command {
   std::vector<std::string> examples() const override {
     if (request_.unbuild) return {"rigc unbuild shot.glb", "rigc unbuild shot.glb -o bare.glb"};
     return {"rigc rebuild shot.glb --feature ikfk:arms=off",
+            "rigc rebuild shot.glb --feature ribbons=on --split-weights on",
             "rigc rebuild shots/ --group face=off --plan"};
   }
   void declare(Options& options) override {
@@ -35,6 +36,9 @@ class Rebuild final : public Command {
       options.list("--feature", "[GROUP/]NAME[:SWITCH]=on|off", request_.features,
                    "Turn a feature on or off");
       options.list("--group", "GROUP=on|off", request_.groups, "Turn a local group on or off");
+      options.text("--split-weights", "on|off", request_.split_weights, false,
+                   "Let the model's skins share their weights with joints that the rig makes "
+                   "(default: as before)");
       options.text("--guides", "GUIDES.yaml", request_.guides, false,
                    "Joints that were moved and controls that were edited: see `rigc guides`");
       options.flag("--strict", request_.strict, "Fail a file whose keys would not all find a node");
@@ -71,6 +75,7 @@ class Rebuild final : public Command {
       for (const std::string& text : *list) w.value(text);
       w.end_array();
     }
+    if (!request_.split_weights.empty()) w.member("split_weights", request_.split_weights);
     if (!request_.guides.empty()) w.member("guides", request_.guides);
     write_members(w, request_);
     return w.end_object().take();

@@ -19,6 +19,7 @@
 #include "gltf/rig_replace.h"
 #include "gltf/splice.h"
 #include "gltf/split_weights.h"
+#include "gltf/unmoved.h"
 
 namespace rigc::gltf {
 namespace {
@@ -286,7 +287,9 @@ bool write_rig(Patch& patch, Rig& rig, int ancestor, const Places& places,
   Given given(patch);
   const auto proxy_nodes = write_proxies(patch, rig, proxies, diagnostics);
   if (!proxy_nodes) return false;
-  split_weights(patch, rig, diagnostics);
+  const Movers movers = find_movers(patch, places.own);
+  const std::set<NodeId> shared = split_weights(patch, rig, diagnostics);
+  warn_of_unmoved(patch, rig, movers, shared, diagnostics);
   given.move_to(rig.owned.stays);
   const std::vector<int> meshes = write_shapes(patch, rig.scene);
   given.move_to(rig.owned.goes);

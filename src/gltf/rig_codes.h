@@ -64,10 +64,13 @@ inline constexpr Code kLockedMoved{
     "Another program moved a control where its rig has locked it. The rig's value is used."};
 
 // Skins that share their weights with joints of a rig.
-inline constexpr Code kBendsNothing{
-    910, Severity::warning, "joints bend no vertex",
-    "Joints that a rig makes along a bone bend a model where its skins are bound to them. "
-    "`rigc build --split-weights` gives them a share of what is weighted to the bone's joint."};
+inline constexpr Code kMovesNothing{
+    910, Severity::warning, "feature moves no vertex",
+    "The joints that it drives have no weight in the model's skins, and no mesh hangs below them. "
+    "Joints that a rig makes along a bone, as twist and ribbons do, bend a model where its skins "
+    "are "
+    "bound to them: `rigc build --split-weights`, or `rigc rebuild --split-weights on` where a rig "
+    "is there, gives them a share of what is weighted to the bone's joint."};
 inline constexpr Code kNotShared{
     911, Severity::warning, "weights are not shared",
     "A skin needs inverse bind matrices, and a mesh one skin and vertices that are not compressed, "
@@ -77,6 +80,6 @@ inline constexpr const Code* kRigCodes[] = {
     &kRigVersion,   &kRigType,      &kRigIndex,       &kRigWord,     &kRigText,
     &kRigDuplicate, &kRigHierarchy, &kRigConnection,  &kRigValue,    &kRigTooLarge,
     &kSameIdentity, &kNodeLost,     &kExtraNotNumber, &kNotWritable, &kLockedMoved,
-    &kBendsNothing, &kNotShared};
+    &kMovesNothing, &kNotShared};
 
 }  // namespace rigc::gltf::codes

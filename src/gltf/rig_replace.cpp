@@ -117,7 +117,12 @@ bool replace_rigs(Patch& patch, const File& file, std::vector<Replacement>& repl
   }
   const std::set<int> going = strip_but(patch, file, old, Strip::nothing, kept);
   for (Replacement& one : replacements) {
-    const Places places{one.places, find_additions(nodes, *one.old, going, kept.nodes)};
+    Places places{one.places, find_additions(nodes, *one.old, going, kept.nodes), going};
+    places.own.insert(kept.nodes.begin(), kept.nodes.end());
+    for (const auto& [node, additions] : places.additions)
+      if (std::any_of(additions.members.begin(), additions.members.end(),
+                      [](const auto& member) { return member.first == "mesh"; }))
+        places.own.erase(node);
     Diagnostics writing(one.sources);
     const bool written = write_rig(patch, *one.fresh, one.old->ancestor, places, writing);
     diagnostics.append(writing);

@@ -34,6 +34,7 @@ struct Additions {
 struct Places {
   std::vector<int> nodes;              ///< by scene node: glTF node to write to, -1: a new one
   std::map<int, Additions> additions;  ///< by glTF node
+  std::set<int> own;  ///< glTF nodes of the file that were rigs' own, but for meshes of others
 };
 
 /// write_rig() into given places.

@@ -33,7 +33,6 @@ int index_of(const Value& value) { return static_cast<int>(value.integer().value
 
 /// A bone, or a line that stands for one, whose weights are to be shared.
 struct Bone {
-  NodeId split;            ///< that says so
   NodeId joint;            ///< whose weights are shared
   Vec3 end;                ///< end of the bone in its space, at rest
   std::vector<Vec3> line;  ///< in its space, at rest; empty: the bone
@@ -42,14 +41,12 @@ struct Bone {
   double fraction = 0;     ///< of the joint's own stop; less than 0: it has none
   std::vector<NodeId> joints;
   std::vector<double> fractions;
-  bool skinned = false;  ///< a skin of the model has the joint
-  bool shared = false;   ///< a weight was shared, or was before
+  bool shared = false;  ///< a weight was shared, or was before
 };
 
 std::optional<Bone> bone_of(const scene::Scene& scene, NodeId id) {
   namespace skin_split = scene::skin_split;
   Bone bone;
-  bone.split = id;
   std::vector<NodeId> joints;
   for (const scene::Connection& connection : scene[id].inputs)
     if (connection.to.attribute == skin_split::kJoints &&
@@ -171,7 +168,6 @@ class Splitter {
             return bone.meshes.count(mesh) != 0;
           }))
         continue;
-      bone.skinned = true;
       const bool known = std::any_of(bone.joints.begin(), bone.joints.end(),
                                      [&](NodeId joint) { return joints_.count(node(joint)) != 0; });
       bone.shared = bone.shared || known;
@@ -196,6 +192,7 @@ class Splitter {
     Splice list(document.root()["joints"]);
     std::vector<Sharing> sharings;
     joint_count_ = count;
+    added_.clear();
     for (const Bone* bone : of_skin_) sharings.push_back(add_joints(*bone, list, *floats));
     known_.clear();
     const std::size_t before = rig_.rebound.primitives.size();
@@ -226,11 +223,10 @@ class Splitter {
     for (const Vec3& point : bone.line) out.line.push_back(to_mesh * point);
     if (bone.fraction >= 0) out.stops.push_back({bone.fraction, out.joint});
     const Affine to_joint = math::inverse(rig_.scene.rest_world(bone.joint));
-    std::map<NodeId, std::size_t> added;
     for (std::size_t i = 0; i < bone.joints.size(); ++i) {
-      const auto [known, is_new] = added.try_emplace(bone.joints[i], joint_count_);
+      const auto [known, is_new] = added_.try_emplace(bone.joints[i], joint_count_);
       out.stops.push_back({bone.fractions[i], known->second});
-      if (!is_new) continue;  // a line that goes round has one at both ends
+      if (!is_new) continue;  // of another bone; or a line that goes round has one at both ends
       ++joint_count_;
       list.append(std::to_string(node(bone.joints[i])));
       const Affine local = to_joint * rig_.scene.rest_world(bone.joints[i]);
@@ -386,59 +382,31 @@ class Splitter {
   // Of the skin that is being split.
   std::map<int, std::size_t> joints_;  ///< places in its list by node
   std::vector<Bone*> of_skin_;
+  std::map<NodeId, std::size_t> added_;  ///< places of the new ones
   std::size_t joint_count_ = 0;
   std::map<Bound, std::vector<Rebound::Attribute>> known_;
 };
 
-/// Marks the bones whose joint bends a mesh of the model.
-void find_skinned(const Patch& patch, const Rig& rig, std::vector<Bone>& bones) {
-  std::set<int> skins;
-  for (const Value& node : patch.file().root()["nodes"].items())
-    if (node["mesh"] && node["skin"]) skins.insert(index_of(node["skin"]));
-  const auto elements = patch.file().root()["skins"].items();
-  for (const int skin : skins) {
-    if (rig.owned.stays.skins.contains(skin)) continue;
-    for (const Value& joint : elements[static_cast<std::size_t>(skin)]["joints"].items())
-      for (Bone& bone : bones)
-        bone.skinned = bone.skinned || rig.nodes[bone.joint.index] == index_of(joint);
-  }
-}
-
-void warn_of_unmoved(const Rig& rig, const Bone& bone, Diagnostics& diagnostics) {
-  const scene::Node& split = rig.scene[bone.split];
-  const std::string joint = printable(rig.scene[bone.joint].name);
-  diagnostics.report(
-      codes::kBendsNothing, split.origin.span,
-      fmt::format("the joints that {} makes along \"{}\" bend no vertex of this model",
-                  printable(split.module), joint),
-      rig.settings.split_weights
-          ? fmt::format("no vertex is weighted to \"{}\"", joint)
-          : fmt::format("`rigc build --split-weights` gives them a share of the weights of \"{}\"",
-                        joint));
-}
-
 }  // namespace
 
-void split_weights(Patch& patch, Rig& rig, Diagnostics& diagnostics) {
+std::set<NodeId> split_weights(Patch& patch, Rig& rig, Diagnostics& diagnostics) {
   rig.rebound = {};
+  if (!rig.settings.split_weights) return {};
   std::vector<Bone> bones;
   for (const NodeId id : rig.scene.nodes())
     if (rig.scene[id].kind == scene::Kind::skin_split)
       if (auto bone = bone_of(rig.scene, id)) bones.push_back(*std::move(bone));
-  if (bones.empty()) return;
+  if (bones.empty()) return {};
   for (Bone& bone : bones)
     if (!bone.surface.empty()) bone.meshes = meshes_of(patch.file(), rig, bone.surface);
   const trace::Span span("split weights");
-  if (rig.settings.split_weights) {
-    Diagnostics reading;
-    const auto slim = read_slim(patch.file(), reading, false);
-    if (slim) Splitter(patch, *slim, rig, bones, diagnostics).run();
-  } else {
-    find_skinned(patch, rig, bones);
-  }
+  Diagnostics reading;
+  const auto slim = read_slim(patch.file(), reading, false);
+  if (slim) Splitter(patch, *slim, rig, bones, diagnostics).run();
+  std::set<NodeId> shared;
   for (const Bone& bone : bones)
-    if ((bone.skinned || !bone.surface.empty()) && !bone.shared)
-      warn_of_unmoved(rig, bone, diagnostics);
+    if (bone.shared) shared.insert(bone.joints.begin(), bone.joints.end());
+  return shared;
 }
 
 }  // namespace rigc::gltf

@@ -149,20 +149,25 @@ inline constexpr Code kAlongOrSurface{
     "Give `along`, joints that the ribbon lies over, or `surface`, a mesh that it lies on, and not "
     "both."};
 
+inline constexpr Code kTwistedBefore{
+    898, Severity::warning, "bone is twisted before its ribbon",
+    "Two commands share out the weights of one bone, and the first leaves the second none. A "
+    "`twist_joints` that comes after the ribbon twists the ribbon's joints in place of its own."};
+
 inline constexpr Code kFeetCount{893, Severity::error, "feet and legs differ in number",
                                  "There is one foot for each leg, in the order of the legs, or "
                                  "none at all."};
 
 inline constexpr const Code* kModulesCodes[] = {
-    &kNotAChain,       &kTooFewJoints,     &kUnknownShape, &kAlreadyDriven,
-    &kAttributeExists, &kValueDoesNotFit,  &kNotSettable,  &kTypesDiffer,
-    &kNotATransform,   &kUnderItself,      &kWeightCount,  &kZeroLengthBone,
-    &kRootExists,      &kNotMadeByCommand, &kSameAxis,     &kNoSolver,
-    &kPoleOnLine,      &kTwistUnknown,     &kEmptyRange,   &kRestOutside,
-    &kNotMirrored,     &kNoLimit,          &kNotLockable,  &kSettingsDiffer,
-    &kSetInItself,     &kGroupName,        &kNoLimb,       &kNoRadius,
-    &kNames,           &kNoZero,           &kTable,        &kNotAbove,
-    &kDrivenBelow,     &kSoleGuessed,      &kNoFkChain,    &kNoSurface,
-    &kNoLine,          &kAlongOrSurface,   &kFeetCount};
+    &kNotAChain,       &kTooFewJoints,     &kUnknownShape,  &kAlreadyDriven,
+    &kAttributeExists, &kValueDoesNotFit,  &kNotSettable,   &kTypesDiffer,
+    &kNotATransform,   &kUnderItself,      &kWeightCount,   &kZeroLengthBone,
+    &kRootExists,      &kNotMadeByCommand, &kSameAxis,      &kNoSolver,
+    &kPoleOnLine,      &kTwistUnknown,     &kEmptyRange,    &kRestOutside,
+    &kNotMirrored,     &kNoLimit,          &kNotLockable,   &kSettingsDiffer,
+    &kSetInItself,     &kGroupName,        &kNoLimb,        &kNoRadius,
+    &kNames,           &kNoZero,           &kTable,         &kNotAbove,
+    &kDrivenBelow,     &kSoleGuessed,      &kNoFkChain,     &kNoSurface,
+    &kNoLine,          &kAlongOrSurface,   &kTwistedBefore, &kFeetCount};
 
 }  // namespace rigc::modules::codes

@@ -27,7 +27,8 @@ struct BuildRequest {
   std::string until;                  ///< JOINT/COMMAND
   std::string guides;                 ///< file of moved joints and edited controls; empty: none
   bool skeleton_only = false;
-  bool split_weights = false;  ///< the skins of the model share weights with twist joints
+  bool split_weights =
+      false;  ///< the skins of the model share weights with joints that the rig makes
   Paths paths;
 };
 

@@ -61,6 +61,11 @@ bool add_settings(const RebuildRequest& request, tags::Settings& settings,
     std::erase_if(settings.groups, [&](const auto& other) { return other.first == group->first; });
     settings.groups.push_back(*group);
   }
+  if (!request.split_weights.empty()) {
+    const auto on = tags::parse_switch("--split-weights", request.split_weights, diagnostics);
+    good = good && on;
+    settings.split_weights = on.value_or(false);
+  }
   return good;
 }
 

@@ -16,6 +16,7 @@ struct RebuildRequest : CarryOptions {
   std::vector<std::string> rigs;      ///< global groups; empty: all
   std::vector<std::string> features;  ///< [GROUP/]NAME[:SWITCH]=on|off, over those of the file
   std::vector<std::string> groups;    ///< GROUP=on|off
+  std::string split_weights;          ///< on or off; empty: as the file was built
   std::string guides;                 ///< file of moved joints and edited controls; empty: none
   bool unbuild = false;               ///< skeleton and tags alone: keys become orphans
 };

@@ -8,7 +8,8 @@ namespace rigc::tags::codes {
 
 inline constexpr Code kBadSetting{
     200, Severity::error, "setting cannot be read",
-    "A feature setting is [GROUP/]NAME[:SWITCH]=on or =off, a group setting GROUP=on or =off."};
+    "A feature setting is [GROUP/]NAME[:SWITCH]=on or =off, a group setting GROUP=on or =off. "
+    "Options that take on or off take nothing else."};
 inline constexpr Code kUnknownFeature{201, Severity::error, "no such feature in the template",
                                       "A setting names a feature that no tag of the template has, "
                                       "or not in that group. Names are those of "

@@ -14,13 +14,18 @@
 namespace rigc::tags {
 namespace {
 
+std::optional<bool> on_or_off(std::string_view text) {
+  if (text != "on" && text != "off" && text != "true" && text != "false") return std::nullopt;
+  return text == "on" || text == "true";
+}
+
 /// Splits `NAME=on` into its name and its value.
 std::optional<std::pair<std::string_view, bool>> split_setting(std::string_view text) {
   const std::size_t equals = text.rfind('=');
   if (equals == std::string_view::npos) return std::nullopt;
-  const std::string_view value = text.substr(equals + 1);
-  if (value != "on" && value != "off" && value != "true" && value != "false") return std::nullopt;
-  return std::pair(text.substr(0, equals), value == "on" || value == "true");
+  const auto on = on_or_off(text.substr(equals + 1));
+  if (!on) return std::nullopt;
+  return std::pair(text.substr(0, equals), *on);
 }
 
 std::vector<std::string> sorted(const std::set<std::string>& names) {
@@ -129,6 +134,16 @@ std::optional<std::pair<std::string, bool>> parse_group_setting(std::string_view
                      fmt::format("\"{}\" is not a group setting", printable(text, 100)),
                      "write GROUP=on or GROUP=off");
   return std::nullopt;
+}
+
+std::optional<bool> parse_switch(std::string_view option, std::string_view text,
+                                 Diagnostics& diagnostics) {
+  const auto on = on_or_off(text);
+  if (!on)
+    diagnostics.report(codes::kBadSetting, Place(),
+                       fmt::format("{} does not take \"{}\"", option, printable(text, 100)),
+                       fmt::format("write {} on or {} off", option, option));
+  return on;
 }
 
 bool apply(TaggedSkeleton& skeleton, const Settings& settings, Diagnostics& diagnostics) {

@@ -20,6 +20,9 @@ std::optional<Settings::Feature> parse_feature_setting(std::string_view text,
 /// `GROUP=on|off`
 std::optional<std::pair<std::string, bool>> parse_group_setting(std::string_view text,
                                                                 Diagnostics& diagnostics);
+/// `on` or `off`, as an option takes it.
+std::optional<bool> parse_switch(std::string_view option, std::string_view text,
+                                 Diagnostics& diagnostics);
 
 /// Sets `on` of features and commands. A feature tag is on when its feature and its switch are; the
 /// last setting that names it counts, one for a group before one for all. Where no setting names a

@@ -358,8 +358,10 @@ TEST_CASE("gltf split_weights: says where new joints bend nothing, and what cann
   };
   CHECK(said(sleeve(), true).empty());
   CHECK(said(sleeve(), false) == std::vector<int>{910});
-  // Nothing is drawn.
-  CHECK(said(replaced(sleeve(), R"("mesh":0,"skin":0)", R"("mesh":0)"), false).empty());
+  // Nothing is drawn; or it is not bound.
+  CHECK(said(replaced(sleeve(), R"("mesh":0,"skin":0)", R"("extras":0)"), false).empty());
+  CHECK(said(replaced(sleeve(), R"("mesh":0,"skin":0)", R"("mesh":0)"), false) ==
+        std::vector<int>{910});
   CHECK(said(replaced(sleeve(), R"("inverseBindMatrices": 0, )", ""), true) ==
         std::vector<int>{911, 910});
   // The same mesh with two skins.

@@ -4,6 +4,8 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "modules/bodies_helpers.h"
 #include "support/models.h"
 
@@ -274,4 +276,72 @@ TEST_CASE("modules twist_joints: the model's own twist joints are used where it 
         CHECK(test::distance(now.origin, rest.origin) < 1e-9 * rig.skeleton.character.height);
       }
     }
+}
+
+TEST_CASE("modules twist_joints: a ribbon's joints share out the twist, and bend as without") {
+  const auto ribboned = [](bool twisted) {
+    test::Commands commands = arms();
+    for (const std::string s : {"l", "r"}) {
+      std::string& upper = commands["upperarm_" + s];
+      const std::size_t twist = upper.find('\n') + 1;
+      const std::string ribbon = fmt::format(
+          "{{command: ribbon, with: {{along: [., arm_{0}.lower, arm_{0}.end], count: 9}}}}\n", s);
+      upper = twisted ? upper.insert(twist, ribbon) : upper.substr(0, twist) + ribbon;
+      if (!twisted) commands.erase("forearm_" + s);
+    }
+    return commands;
+  };
+  const std::string pins = "arm_l.upper/ribbon.joint", bend = "arm_l.lower/ribbon.tweak";
+  for (const test::Model& model : test::models()) {
+    CAPTURE(model.name);
+    const test::Rig rig(test::body(ribboned(true)), model.change);
+    const test::Rig plain(test::body(ribboned(false)), model.change);
+    INFO(test::text(rig.diagnostics));
+    REQUIRE(rig.clean());
+    CHECK(test::rest_error(rig) < 1e-9);
+    CHECK(rig.nodes(kForearm + "?").empty());
+    auto joints = rig.nodes(pins), plain_joints = plain.nodes(pins);
+    for (const auto& [of, list] : {std::pair(&rig, &joints), std::pair(&plain, &plain_joints)})
+      for (const scene::NodeId more : of->nodes("arm_l.lower/ribbon.joint")) list->push_back(more);
+    REQUIRE(joints.size() == 9);
+    const auto turned = [&](const test::Pose& pose, scene::NodeId joint) {
+      const Affine now = pose.worlds({joint})[0], rest = rig.scene().rest_world(joint);
+      return math::quaternion(math::orthonormal(now.linear) *
+                              math::transposed(math::orthonormal(rest.linear)));
+    };
+    for (const double degrees : {-170.0, 60.0, 170.0}) {
+      CAPTURE(degrees);
+      const Vec3 lower = bone(rig, "arm_l.lower", "arm_l.end");
+      const Vec3 upper = bone(rig, "arm_l.upper", "arm_l.lower");
+      test::Pose hand(rig), shoulder(rig);
+      hand.turn_in_world(kHand, about(lower, degrees));
+      shoulder.turn_in_world(kUpper, about(upper, degrees));
+      for (const scene::NodeId joint : joints) {
+        const Vec3 at = rig.scene().rest_world(joint).origin;
+        const auto part = [&](const std::string& from, const std::string& to) {
+          const Vec3 way = rig.rest(to).origin - rig.rest(from).origin;
+          return math::dot(at - rig.rest(from).origin, way) / math::dot(way, way);
+        };
+        const double on_lower = std::clamp(part("arm_l.lower", "arm_l.end"), 0.0, 1.0);
+        const double on_upper = std::clamp(part("arm_l.upper", "arm_l.lower"), 0.0, 1.0);
+        CHECK(angle_between(turned(hand, joint), about(lower, degrees * on_lower)) < 1.5);
+        if (on_upper < 1)
+          CHECK(angle_between(turned(shoulder, joint), about(upper, degrees * on_upper)) < 1.5);
+      }
+    }
+    test::Pose bow(rig), plain_bow(plain);
+    for (test::Pose* pose : {&bow, &plain_bow}) pose->translate(nth(bend, 1), {0, 0.2, 0.1});
+    const auto places = bow.worlds(joints), expected = plain_bow.worlds(plain_joints);
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      CHECK(test::distance(places[i].origin, expected[i].origin) <
+            1e-9 * rig.skeleton.character.height);
+      CHECK(math::length(places[i].linear.y - expected[i].linear.y) < 1e-9);
+    }
+    // Both at once. What lies a little beside the curve at rest goes round it.
+    bow.turn_in_world(kHand, about(bone(rig, "arm_l.lower", "arm_l.end"), 150));
+    const auto both = bow.worlds(joints);
+    for (std::size_t i = 0; i < joints.size(); ++i)
+      CHECK(test::distance(both[i].origin, expected[i].origin) <
+            1e-3 * rig.skeleton.character.height);
+  }
 }

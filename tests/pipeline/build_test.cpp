@@ -22,6 +22,7 @@ std::optional<pipeline::Built> build(const std::string& name, const std::string&
   request.template_file = test::templates_folder() + "/" + name;
   request.paths.templates = {test::templates_folder()};
   request.model = model;
+  if (!model.empty()) request.features = {"eyes=off"};  // they would bend nothing, which is said
   auto built = pipeline::build(request, out, diagnostics);
   if (!model.empty()) test::made_from(out, model);
   CHECK_MESSAGE(built, render(diagnostics, false));

@@ -25,6 +25,7 @@ pipeline::BuildRequest biped(const std::string& model = {}) {
   request.template_file = test::templates_folder() + "/biped.yaml";
   request.paths.templates = {test::templates_folder()};
   request.model = model;
+  if (!model.empty()) request.features = {"eyes=off"};  // they would bend nothing, which is said
   return request;
 }
 

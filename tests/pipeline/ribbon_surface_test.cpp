@@ -25,7 +25,7 @@ using math::Affine;
 using math::Vec3;
 using nlohmann::ordered_json;
 
-constexpr int kNoSurface = 895, kNoLine = 896, kBendsNothing = 910;
+constexpr int kNoSurface = 895, kNoLine = 896, kMovesNothing = 910;
 constexpr int kAround = 32, kAlong = 20;  // columns of belt and tail
 
 Vec3 belt(double u, double v) {
@@ -341,7 +341,7 @@ TEST_CASE("pipeline ribbon on a surface: keys on its controls survive a rebuild"
 
 TEST_CASE("pipeline ribbon on a surface: said where nothing moves, is missing or cannot be used") {
   const std::string file = model("ribbon_surface_said_model");
-  CHECK(build("unsplit", file, false).said == std::vector<int>{kBendsNothing, kBendsNothing});
+  CHECK(build("unsplit", file, false).said == std::vector<int>{kMovesNothing});
   // The list of commands is made of what the model holds, too.
   pipeline::BuildRequest planned;
   planned.template_file = test::test_out("ribbon_surface_unsplit.yaml");
@@ -360,7 +360,7 @@ TEST_CASE("pipeline ribbon on a surface: said where nothing moves, is missing or
   maker.add("Body", test::sheet(tail, 2, 2));
   maker.character.json["skins"][0]["joints"] = {1, 0};
   CHECK(build("other", maker.save("ribbon_surface_other_model")).said ==
-        std::vector<int>{kBendsNothing, kBendsNothing});
+        std::vector<int>{kMovesNothing});
   // Two of one name.
   maker.character.json["nodes"][2]["name"] = "Tail";
   pipeline::BuildRequest request;

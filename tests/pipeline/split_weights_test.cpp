@@ -23,7 +23,7 @@ using math::Affine;
 using math::Vec3;
 using scene::NodeId;
 
-constexpr int kNotShared = 910;
+constexpr int kMovesNothing = 910;
 
 std::string folder(const std::string& name) {
   const std::string out = test::test_out("split_" + name);
@@ -67,6 +67,27 @@ std::optional<Twisted> character(const std::string& file, const std::string& nam
   REQUIRE_MESSAGE(built, render(diagnostics, false));
   out.rig = std::move(built->rig);
   for (const Diagnostic& said : diagnostics.all()) out.warnings.push_back(said.code->number);
+  return out;
+}
+
+/// The same with the biped that comes with rigc and these features.
+std::optional<Twisted> featured(const std::string& file, const std::string& name,
+                                const std::vector<std::string>& features) {
+  Twisted out;
+  out.model = test::corpus_file(file);
+  if (out.model.empty()) return std::nullopt;
+  pipeline::BuildRequest request;
+  request.template_file = test::templates_folder() + "/biped.yaml";
+  request.paths.templates = {test::templates_folder()};
+  request.model = out.model;
+  request.features = features;
+  request.split_weights = true;
+  out.path = test::test_out("split_" + name + "_" + stem_of(out.model) + ".glb");
+  Diagnostics diagnostics;
+  auto built = pipeline::build(request, out.path, diagnostics);
+  test::made_from(out.path, out.model);
+  REQUIRE_MESSAGE(built, render(diagnostics, false));
+  out.rig = std::move(built->rig);
   return out;
 }
 
@@ -210,7 +231,7 @@ TEST_CASE("split_weights: a wrist turned by 150 degrees does not wring the forea
     CAPTURE(file);
     const auto plain = character(file, "plain", false), split = character(file, "forearm", true);
     if (!plain) return;
-    CHECK(plain->warnings == std::vector<int>(4, kNotShared));
+    CHECK(plain->warnings == std::vector<int>{kMovesNothing});
     CHECK(split->warnings.empty());
     for (const double degrees : {150.0, -150.0}) {
       CHECK(least_radius(*plain, "elbow", "wrist", "wrist", degrees) < 0.4);
@@ -292,6 +313,60 @@ TEST_CASE("split_weights: baked, twist joints are joints of the character like o
     ++twisted;
   }
   CHECK(twisted == 4);
+}
+
+TEST_CASE("split_weights: twist and ribbons together bend and roll as each alone") {
+  for (const char* file : kSoft) {
+    CAPTURE(file);
+    const auto both = featured(file, "both", {"twist=on", "ribbons=on"});
+    if (!both) return;
+    const auto ribbons = featured(file, "ribbons", {"ribbons=on"});
+    for (const double degrees : {170.0, -170.0}) {
+      CHECK(least_radius(*both, "elbow", "wrist", "wrist", degrees) > 0.8);
+      CHECK(least_radius(*ribbons, "elbow", "wrist", "wrist", degrees) < 0.5);
+    }
+    CHECK(least_radius(*both, "shoulder", "elbow", "shoulder", 120) > 0.8);
+    const auto bowed = [](const Twisted& built) {
+      std::vector<eval::Setting> settings;
+      for (const NodeId id : built.rig.scene.nodes()) {
+        const scene::Node& node = built.rig.scene[id];
+        if (node.kind == scene::Kind::control && node.module == "ribbon" &&
+            node.identity.counter < 3)
+          settings.push_back({{id, scene::transform::kTranslate}, Vec3{0, 0.05, 0.02}});
+      }
+      return skinned(opened(built.path), built.rig, settings);
+    };
+    const Skinned one = bowed(*both), other = bowed(*ribbons);
+    REQUIRE(one.posed.size() == other.posed.size());
+    double most = 0, apart = 0;
+    for (std::size_t v = 0; v < one.posed.size(); ++v) {
+      most = std::max(most, math::length(one.posed[v] - one.rest[v]));
+      apart = std::max(apart, math::length(one.posed[v] - other.posed[v]));
+    }
+    CHECK(most > 0.04);
+    CHECK(apart < 1e-6);
+
+    // Off and on again in either order; and the model comes back.
+    for (const char* first : {"twist", "ribbons"}) {
+      CAPTURE(first);
+      const std::string second = first == std::string("twist") ? "ribbons" : "twist";
+      for (const std::string& setting : {std::string(first) + "=off", second + "=off",
+                                         first + std::string("=on"), second + "=on"}) {
+        pipeline::RebuildRequest request;
+        request.features = {setting};
+        test::rebuild(both->path, request);
+      }
+      const gltf::File now = opened(both->path);
+      Diagnostics reading;
+      const auto reread = gltf::read_rigs(now, reading);
+      REQUIRE(reread);
+      CHECK(least_radius({both->model, both->path, reread->front(), {}}, "elbow", "wrist", "wrist",
+                         170) > 0.8);
+    }
+    Diagnostics diagnostics;
+    REQUIRE(pipeline::strip({}, {both->path, both->path, ""}, diagnostics));
+    CHECK(bytes(both->path) == bytes(both->model));
+  }
 }
 
 }  // namespace rigc

@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "modules/codes.h"
+#include "modules/limbs/bone_riders.h"
 #include "modules/limbs/curve.h"
 #include "modules/limbs/share_weights.h"
 #include "modules/limbs/surface_line.h"
@@ -165,8 +166,20 @@ std::size_t segment_of(const Builder& b, const Ribbon& ribbon, double part) {
   return points.size() - 2;
 }
 
-/// Each bone under the ribbon shares its weights with the joints made along it; one at its very
-/// start takes none, as the bone's joint is there.
+/// Warns where a bone under the ribbon has joints that share its weights already.
+void check_untwisted(Builder& b, const Ribbon& ribbon) {
+  for (std::size_t i = 0; i + 1 < ribbon.along.size(); ++i)
+    for (const NodeId child : b.scene()[ribbon.along[i]].children)
+      if (b.scene()[child].identity.role == "twist" && !b.scene()[child].is_skeleton())
+        return b.warn(codes::kTwistedBefore, "along",
+                      fmt::format("{} has joints that share out its twist, and the ribbon's get "
+                                  "none of it",
+                                  traversal::describe(b.scene(), ribbon.along[i])),
+                      "put `twist_joints` after the ribbon");
+}
+
+/// Each bone under the ribbon shares its weights with the joints made along it, and so do the
+/// model's twist joints on it. At the bone's start is the bone's joint, unless one was made there.
 void share_bones(Builder& b, const Ribbon& ribbon) {
   const std::vector<Vec3> points = positions(b, ribbon.along);
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
@@ -177,20 +190,28 @@ void share_bones(Builder& b, const Ribbon& ribbon) {
       if (b.scene()[ribbon.pinned[k]].parent != ribbon.along[i]) continue;
       const double at =
           math::dot(ribbon.frames[k].origin - points[i], bone) / math::dot(bone, bone);
-      if (at < 1e-6 || at <= fractions.back()) continue;
+      if (at < 1e-6) fractions.front() = -1;
+      if (at >= 1e-6 && at <= fractions.back()) continue;
       joints.push_back(ribbon.pinned[k]);
-      fractions.push_back(at);
+      fractions.push_back(std::max(at, 0.0));
     }
-    if (!joints.empty()) share_weights(b, ribbon.along[i], ribbon.along[i + 1], joints, fractions);
+    if (joints.empty()) continue;
+    share_weights(b, ribbon.along[i], ribbon.along[i + 1], joints, fractions);
+    fractions.erase(fractions.begin());
+    for (const Rider& rider : riders_on(b, ribbon.along[i], ribbon.along[i + 1]))
+      share_weights_on(b, rider.joint, "", {points[i], points[i + 1]}, joints, fractions);
   }
 }
 
 void make_pin(Builder& b, Ribbon& ribbon, NodeId parent, const math::Affine& frame) {
+  const auto beside = std::count_if(ribbon.pinned.begin(), ribbon.pinned.end(), [&](NodeId other) {
+    return b.scene()[other].parent == parent;
+  });
   const NodeId pin = b.make({.kind = scene::Kind::joint,
                              .role = "joint",
                              .joint = parent,
                              .parent = parent,
-                             .suffix = "ribbon"});
+                             .suffix = fmt::format("ribbon_{}", beside + 1)});
   const math::Trs local = math::decompose(math::inverse(rest(b, parent)) * frame);
   b.set({pin, transform::kTranslate}, local.translation);
   b.set({pin, transform::kRotation}, local.rotation);
@@ -209,6 +230,7 @@ void make_pins(Builder& b, Ribbon& ribbon) {
     make_pin(b, ribbon, parent,
              {bone_frame(b, parent, way), point_along(points, std::clamp(part, 0.0, 1.0))});
   }
+  check_untwisted(b, ribbon);
   share_bones(b, ribbon);
 }
 

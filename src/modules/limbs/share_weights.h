@@ -16,8 +16,8 @@ namespace rigc::modules {
 void share_weights(Builder& b, NodeId bone, NodeId end, const std::vector<NodeId>& joints,
                    const std::vector<double>& fractions);
 
-/// The same along a line on a surface, in rig space, and for vertices of this surface alone: the
-/// joint has no part of the line for itself. `fractions`: of the line's length.
+/// The same along a line in rig space, of which the joint has no part for itself, and for vertices
+/// of a surface alone where it has a name. `fractions`: of the line's length.
 void share_weights_on(Builder& b, NodeId joint, const std::string& surface,
                       const std::vector<math::Vec3>& line, const std::vector<NodeId>& joints,
                       std::vector<double> fractions);

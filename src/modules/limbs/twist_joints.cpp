@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// twist_joints: joints along a bone that share out its twist, the model's own or new ones.
+// twist_joints: joints along a bone that share out its twist: the model's own, a ribbon's, or new
+// ones.
 // Test: tests/modules/twist_joints_test.cpp
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "modules/codes.h"
+#include "modules/limbs/bone_riders.h"
 #include "modules/limbs/share_weights.h"
 #include "modules/registry.h"
 #include "modules/wiring.h"
@@ -14,16 +16,15 @@ namespace rigc::modules {
 namespace {
 
 namespace constraint = scene::constraint;
+namespace spline = scene::spline;
 namespace transform = scene::transform;
 using scene::Kind;
 
-/// How far from its bone's line a joint of the model may lie, in lengths of the bone.
-constexpr double kNear = 0.05;
+/// Where nothing turns there is nothing to do: within this part of the bone.
+constexpr double kStill = 0.05;
 
 /// A joint along the bone.
-struct Rider {
-  NodeId joint;
-  double fraction = 0;  ///< 0 at the bone's start, 1 at its end
+struct Turned : Rider {
   bool is_new = false;
 };
 
@@ -32,19 +33,9 @@ struct Bone {
   math::Vec3 vector;  ///< start to end at rest, rig space
   bool rolls = true;  ///< follows the end's twist; else undoes the start's own
   bool child = true;  ///< the end hangs directly under the start
-  std::vector<Rider> riders;
+  std::vector<Turned> riders;
+  NodeId ribbon;  ///< curve of a ribbon that has made joints on the bone; invalid: none
 };
-
-bool is_tagged(const Builder& b, NodeId joint) {
-  const Identifiers& ids = b.scene()[joint].ids;
-  return !ids.local.empty() || !ids.label.empty();
-}
-
-bool lies_above(const Builder& b, NodeId above, NodeId joint) {
-  for (NodeId at = joint; at.valid(); at = b.scene()[at].parent)
-    if (at == above) return true;
-  return false;
-}
 
 /// The bone's direction in the space of a joint, at rest.
 math::Vec3 axis_in(const Builder& b, const Bone& bone, NodeId joint) {
@@ -52,31 +43,23 @@ math::Vec3 axis_in(const Builder& b, const Bone& bone, NodeId joint) {
   return math::transposed(axes) * math::normalised(bone.vector);
 }
 
-/// Joints of the model that no joint of the template stands for and that lie on the bone: those
-/// between its ends, and those that hang beside the end.
 void find_riders(const Builder& b, Bone& bone) {
-  const double length = math::length(bone.vector);
-  const math::Vec3 origin = position(b, bone.start);
-  const auto add = [&](NodeId joint) {
-    if (b.scene()[joint].kind != Kind::joint || !b.scene()[joint].is_skeleton()) return;
-    if (joint == bone.end || is_tagged(b, joint)) return;
-    const math::Vec3 offset = position(b, joint) - origin;
-    const double fraction = math::dot(offset, bone.vector) / (length * length);
-    const double away = math::length(offset - bone.vector * fraction) / length;
-    const bool inside = fraction > -kNear && fraction < 1 + kNear;
-    // Where nothing turns there is nothing to do.
-    const bool still = bone.rolls ? fraction < kNear : fraction > 1 - kNear;
-    if (away <= kNear && inside && !still)
-      bone.riders.push_back({joint, std::clamp(fraction, 0.0, 1.0), false});
-  };
-  NodeId at = b.scene()[bone.end].parent;
-  bone.child = at == bone.start;
-  if (lies_above(b, bone.start, bone.end))
-    for (; at != bone.start; at = b.scene()[at].parent) add(at);
-  for (const NodeId child : b.scene()[bone.start].children)
-    if (!lies_above(b, child, bone.end)) add(child);
-  std::stable_sort(bone.riders.begin(), bone.riders.end(),
-                   [](const Rider& a, const Rider& c) { return a.fraction < c.fraction; });
+  bone.child = b.scene()[bone.end].parent == bone.start;
+  for (const Rider& rider : riders_on(b, bone.start, bone.end))
+    if (bone.rolls ? rider.fraction >= kStill : rider.fraction <= 1 - kStill)
+      bone.riders.push_back({rider, false});
+}
+
+/// A ribbon's joints on the bone ride on its curve.
+void find_ribbon(const Builder& b, Bone& bone) {
+  for (const NodeId child : b.scene()[bone.start].children) {
+    const auto rides = b.scene().source({child, transform::kTranslate});
+    if (b.scene()[child].is_skeleton() || !rides) continue;
+    const auto on = b.scene().source({rides->node, constraint::kTargets, 0});
+    if (b.scene()[rides->node].kind == Kind::parent_constraint && on &&
+        b.scene()[on->node].kind == Kind::spline)
+      bone.ribbon = on->node;
+  }
 }
 
 /// New joints in equal steps, the first at the bone's start where that is to stay, else the last at
@@ -94,11 +77,11 @@ void make_riders(Builder& b, Bone& bone) {
                                  .parent = bone.start,
                                  .suffix = fmt::format("twist_{}", i + 1)});
     b.set({joint, transform::kTranslate}, end * fraction);
-    bone.riders.push_back({joint, fraction, true});
+    bone.riders.push_back({{joint, fraction}, true});
     fractions.push_back(fraction);
   }
   std::vector<NodeId> joints;
-  for (const Rider& rider : bone.riders) joints.push_back(rider.joint);
+  for (const Turned& rider : bone.riders) joints.push_back(rider.joint);
   share_weights(b, bone.start, bone.end, joints, fractions);
 }
 
@@ -155,7 +138,7 @@ Given amount(Builder& b) {
 Plug measure_twist(Builder& b, const Bone& bone) {
   const bool under_riders = std::any_of(
       bone.riders.begin(), bone.riders.end(),
-      [&](const Rider& rider) { return !rider.is_new && lies_above(b, rider.joint, bone.end); });
+      [&](const Turned& rider) { return !rider.is_new && lies_above(b, rider.joint, bone.end); });
   const math::Quat rested = b.scene().local(bone.start).rotation;
   const math::Quat seen = math::quaternion(
       math::orthonormal((math::inverse(rest(b, bone.start)) * rest(b, bone.end)).linear));
@@ -185,12 +168,12 @@ double part(const Bone& bone, double fraction) { return bone.rolls ? fraction : 
 double part_above(const Builder& b, const Bone& bone, NodeId rider) {
   for (NodeId at = b.scene()[rider].parent; at.valid() && at != bone.start;
        at = b.scene()[at].parent)
-    for (const Rider& other : bone.riders)
+    for (const Turned& other : bone.riders)
       if (other.joint == at) return part(bone, other.fraction);
   return 0;
 }
 
-void turn(Builder& b, const Bone& bone, const Rider& rider, const Plug& twist) {
+void turn(Builder& b, const Bone& bone, const Turned& rider, const Plug& twist) {
   const NodeId above = b.scene()[rider.joint].parent;
   const double share = part(bone, rider.fraction) - part_above(b, bone, rider.joint);
   const Computed computed = compute(b, rider.is_new ? bone.start : rider.joint, "turn",
@@ -203,7 +186,7 @@ void turn(Builder& b, const Bone& bone, const Rider& rider, const Plug& twist) {
 }
 
 /// Keeps a rider at its fraction of the bone, however long that becomes.
-void place(Builder& b, const Bone& bone, const Rider& rider) {
+void place(Builder& b, const Bone& bone, const Turned& rider) {
   if (b.scene()[rider.joint].parent != bone.start) return;
   const math::Affine start = math::inverse(rest(b, bone.start));
   std::vector<Given> given{{"rest", b.scene().local(rider.joint).translation},
@@ -224,6 +207,27 @@ void place(Builder& b, const Bone& bone, const Rider& rider) {
   b.connect(computed["place"], {rider.joint, transform::kTranslate});
 }
 
+/// Twists a ribbon's curve where what it passes through turns with the bone's start. What turns
+/// with the end has the end's twist anyway.
+void turn_ribbon(Builder& b, const Bone& bone, const Plug& twist) {
+  const math::Vec3 origin = position(b, bone.start);
+  const double squares = math::dot(bone.vector, bone.vector);
+  const auto& controls = b.scene()[bone.ribbon].attributes[spline::kControls];
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(controls.size()); ++i) {
+    const NodeId knot = b.scene().source({bone.ribbon, spline::kControls, i})->node;
+    const math::Vec3 away = position(b, knot) - origin;
+    const double fraction = math::dot(away, bone.vector) / squares;
+    const math::Vec3 off = away - bone.vector * fraction;
+    if (math::dot(off, off) > 1e-8 * squares || fraction < -1e-4 || fraction > 1 - 1e-4) continue;
+    const Plug own{bone.ribbon, spline::kTwists, i};
+    const Computed computed =
+        compute(b, bone.start, "turn",
+                {now(b, "own", own), {"twist", twist}, {"share", part(bone, fraction)}},
+                "out turn = own + twist * share;");
+    b.reconnect(computed["turn"], own);
+  }
+}
+
 }  // namespace
 
 void twist_joints(Builder& b) {
@@ -239,10 +243,12 @@ void twist_joints(Builder& b) {
     return;
   }
   find_riders(b, bone);
-  if (bone.riders.empty()) make_riders(b, bone);
+  find_ribbon(b, bone);
+  if (bone.riders.empty() && !bone.ribbon.valid()) make_riders(b, bone);
   const Plug twist = measure_twist(b, bone);
   if (b.failed()) return;
-  for (const Rider& rider : bone.riders) {
+  if (bone.ribbon.valid()) turn_ribbon(b, bone, twist);
+  for (const Turned& rider : bone.riders) {
     turn(b, bone, rider, twist);
     place(b, bone, rider);
   }
