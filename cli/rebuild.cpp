@@ -33,7 +33,7 @@ class Rebuild final : public Command {
                  "Only the rig with this global group (default: all)");
     if (!request_.unbuild) {
       options.list("--feature", "[GROUP/]NAME[:SWITCH]=on|off", request_.features,
-                   "Turn a feature on or off");
+                   "Turn a feature on or off; of a group, in the groups beneath it too");
       options.list("--group", "GROUP=on|off", request_.groups, "Turn a local group on or off");
       options.text("--guides", "GUIDES.yaml", request_.guides, false,
                    "Joints that were moved and controls that were edited: see `rigc guides`");
