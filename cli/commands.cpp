@@ -47,7 +47,7 @@ void declare_build(Options& options, pipeline::BuildRequest& request) {
   options.text("--global", "NAME", request.global, false,
                "Global group of the rig (default: the template's)");
   options.list("--feature", "[GROUP/]NAME[:SWITCH]=on|off", request.features,
-               "Turn a feature on or off");
+               "Turn a feature on or off; of a group, in the groups beneath it too");
   options.list("--group", "GROUP=on|off", request.groups, "Turn a local group on or off");
   options.list("--only", "GROUP", request.only, "Run only the commands of this local group");
   options.text("--until", "JOINT/COMMAND", request.until, false, "Stop after this command");

@@ -34,7 +34,7 @@ class Rebuild final : public Command {
                  "Only the rig with this global group (default: all)");
     if (!request_.unbuild) {
       options.list("--feature", "[GROUP/]NAME[:SWITCH]=on|off", request_.features,
-                   "Turn a feature on or off");
+                   "Turn a feature on or off; of a group, in the groups beneath it too");
       options.list("--group", "GROUP=on|off", request_.groups, "Turn a local group on or off");
       options.text("--split-weights", "on|off", request_.split_weights, false,
                    "Let the model's skins share their weights with joints that the rig makes "

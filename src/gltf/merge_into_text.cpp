@@ -64,10 +64,22 @@ class FromText {
     shift_file(joint);
     for (const char* tags : {"features", "commands"})
       for (const Value& tag : joint[tags].items()) shift_file(tag);
+    turn(joint["moved"]);
+    turn(joint["up"]);
     const auto moved = moved_.joints.find(index);
     if (moved == moved_.joints.end()) return;
     edits.insert(joint, "parent", std::to_string(joining_.roots.at(index)));
     for (const auto& [name, text] : placement(moved->second, true)) set(joint, name, text);
+    const tags::TaggedJoint& own =
+        joining_.from.rig.skeleton.joints[static_cast<std::size_t>(index)];
+    if (!own.guide.fitted) return;
+    const math::Affine fitted = math::compose(moved->second) * inverse(math::compose(own.rest)) *
+                                math::compose(*own.guide.fitted);
+    json::Writer writer;
+    writer.begin_object();
+    for (const auto& [name, text] : placement(math::decompose(fitted), true))
+      writer.key(name).raw(text);
+    edits.replace(joint["fitted"], writer.end_object().take());
   }
 
   void edit_node(const Value& node, scene::NodeId id) {
@@ -102,6 +114,16 @@ class FromText {
     const double out[] = {now.x.x, now.x.y, now.x.z, now.y.x, now.y.y,
                           now.y.z, now.z.x, now.z.y, now.z.z};
     set(orphan, "space", numbers(out, 9));
+  }
+
+  /// A vector in the rig's space.
+  void turn(const Value& value) {
+    const auto items = value.items();
+    if (items.size() != 3) return;
+    const math::Vec3 was{items[0].number().value_or(0), items[1].number().value_or(0),
+                         items[2].number().value_or(0)};
+    const math::Vec3 now = joining_.space.linear * was;
+    edits.replace(value, numbers(&now.x, 3));
   }
 
   void place(const Value& node, const math::Trs& trs) {
@@ -295,7 +317,7 @@ std::string joined_text(const Joining& joining, const Moved& moved) {
   whole.set("joints", both_lists(into["joints"], from["joints"], text.edits, true));
   whole.set("commands", both_lists(into["commands"], from["commands"], text.edits, true));
   whole.set("nodes", both_lists(nodes.root(), from["nodes"], text.edits, true));
-  for (const char* list : {"modules", "module_pins", "features", "shapes"})
+  for (const char* list : {"modules", "module_pins", "features", "shapes", "groups"})
     if (from[list].size() != 0) whole.set(list, united(into[list], from[list]));
   whole.set("settings", settings_text(joining.into.rig, joining.from.rig));
   whole.set("owned", owned_text(into["owned"], from["owned"]));

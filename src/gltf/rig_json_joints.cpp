@@ -62,6 +62,21 @@ void write_command_tags(json::Writer& writer, const tags::TaggedJoint& joint, Pl
   writer.end_array();
 }
 
+void write_guide(json::Writer& writer, const tags::Guiding& guide) {
+  if (guide.fitted) {
+    write_rest(writer.key("fitted").begin_object(), *guide.fitted);
+    writer.end_object();
+  }
+  if (guide.moved) writer.key("moved").numbers(&guide.moved->x, 3);
+  if (guide.toward != JointKey{}) {
+    writer.member("toward", to_text(guide.toward));
+    writer.key("up").numbers(&guide.up.x, 3);
+  }
+  if (guide.between[0] == JointKey{}) return;
+  write_keys(writer.key("between"), {guide.between.begin(), guide.between.end()});
+  writer.member("share", guide.share);
+}
+
 std::string joint_text(const tags::TaggedJoint& joint, const std::string& global,
                        PlaceWriter& places) {
   json::Writer writer;
@@ -78,6 +93,7 @@ std::string joint_text(const tags::TaggedJoint& joint, const std::string& global
     writer.member("opposite", to_text(joint.mirror.opposite));
   if (joint.template_index != 0) writer.member("template", joint.template_index);
   if (joint.foreign_node >= 0) writer.member("foreign_node", joint.foreign_node);
+  write_guide(writer, joint.guide);
   write_feature_tags(writer, joint, places);
   write_command_tags(writer, joint, places);
   places.write(writer, joint.span);
@@ -129,6 +145,25 @@ void read_tags(const json::Value& item, JsonReader& reader, PlaceReader& places,
   }
 }
 
+void read_rest(const json::Value& item, JsonReader& reader, math::Trs& rest) {
+  reader.get(item, "translation", rest.translation);
+  reader.get(item, "rotation", rest.rotation);
+  reader.get(item, "scale", rest.scale);
+}
+
+void read_guide(const json::Value& item, JsonReader& reader, tags::Guiding& guide) {
+  if (const json::Value fitted = item["fitted"]) read_rest(fitted, reader, guide.fitted.emplace());
+  if (item["moved"]) reader.get(item, "moved", guide.moved.emplace());
+  reader.get(item, "toward", guide.toward);
+  reader.get(item, "up", guide.up);
+  const auto between = reader.items(item, "between");
+  if (between.size() == 2)
+    for (std::size_t i = 0; i < 2; ++i) reader.read(between[i], guide.between[i]);
+  else if (!between.empty())
+    reader.fail(codes::kRigValue, item["between"], "a joint lies between two others");
+  reader.get(item, "share", guide.share);
+}
+
 tags::TaggedJoint read_joint(const json::Value& item, JsonReader& reader, PlaceReader& places,
                              const tags::TaggedSkeleton& skeleton) {
   tags::TaggedJoint joint;
@@ -142,15 +177,14 @@ tags::TaggedJoint read_joint(const json::Value& item, JsonReader& reader, PlaceR
              joint.parent);
   reader.get(item, "template_parent", joint.template_parent);
   read_identifiers(item, reader, skeleton.global, joint.ids);
-  reader.get(item, "translation", joint.rest.translation);
-  reader.get(item, "rotation", joint.rest.rotation);
-  reader.get(item, "scale", joint.rest.scale);
+  read_rest(item, reader, joint.rest);
   reader.get(item, "optional", joint.optional);
   reader.get(item, "mirrored", joint.mirror.mirrored);
   reader.get(item, "opposite", joint.mirror.opposite);
   const auto templates = static_cast<std::int64_t>(skeleton.templates.size());
   reader.get(item, "template", 0, templates - 1, joint.template_index);
   reader.get(item, "foreign_node", 0, kLargestIndex, joint.foreign_node);
+  read_guide(item, reader, joint.guide);
   joint.span = places.read(item);
   read_tags(item, reader, places, joint);
   return joint;

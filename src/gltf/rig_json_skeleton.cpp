@@ -76,6 +76,23 @@ void read_features(const json::Value& rig, JsonReader& reader, tags::TaggedSkele
   }
 }
 
+void write_groups(json::Writer& writer,
+                  const std::vector<std::pair<std::string, std::string>>& groups) {
+  if (groups.empty()) return;
+  writer.key("groups").begin_array();
+  for (const auto& [name, above] : groups)
+    writer.begin_object().member("name", name).member("in", above).end_object();
+  writer.end_array();
+}
+
+void read_groups(const json::Value& rig, JsonReader& reader, tags::TaggedSkeleton& out) {
+  for (const json::Value& item : reader.objects(rig, "groups", kMostDeclared)) {
+    auto& [name, above] = out.groups.emplace_back();
+    reader.get(item, "name", name, Need::required);
+    reader.get(item, "in", above, Need::required);
+  }
+}
+
 /// Each polyline is a flat list of coordinates.
 void write_shapes(json::Writer& writer, const std::vector<tags::NamedShape>& shapes) {
   if (shapes.empty()) return;
@@ -199,7 +216,9 @@ void write_skeleton(json::Writer& writer, const tags::TaggedSkeleton& skeleton,
     write_versions(writer.key("module_pins"), skeleton.module_pins);
   write_features(writer, skeleton.features);
   write_shapes(writer, skeleton.shapes);
+  write_groups(writer, skeleton.groups);
   write_character(writer, skeleton.character);
+  if (skeleton.aims) writer.member("aims", true);
   write_joints(writer, skeleton, places);
 }
 
@@ -211,7 +230,9 @@ void read_skeleton(const json::Value& rig, JsonReader& reader, PlaceReader& plac
   out.module_pins = read_versions(rig, "module_pins", reader);
   read_features(rig, reader, out);
   read_shapes(rig, reader, out);
+  read_groups(rig, reader, out);
   read_character(rig, reader, out.character);
+  reader.get(rig, "aims", out.aims);
   read_joints(rig, reader, places, out);
 }
 

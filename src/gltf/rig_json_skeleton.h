@@ -8,8 +8,8 @@
 
 namespace rigc::gltf {
 
-/// Members `name`, `global`, `templates`, `module_pins`, `features`, `shapes`, `character`,
-/// `joints` of an open object.
+/// Members `name`, `global`, `templates`, `module_pins`, `features`, `shapes`, `groups`,
+/// `character`, `aims`, `joints` of an open object.
 void write_skeleton(json::Writer& writer, const tags::TaggedSkeleton& skeleton,
                     PlaceWriter& places);
 void read_skeleton(const json::Value& rig, JsonReader& reader, PlaceReader& places,

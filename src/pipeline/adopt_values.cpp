@@ -6,10 +6,12 @@
 
 #include "base/text.h"
 #include "gltf/float_text.h"
+#include "gltf/rig_json_joints.h"
 #include "gltf/skeletons.h"
 #include "gltf/splice.h"
 #include "pipeline/adopt_steps.h"
 #include "scene/access.h"
+#include "tags/fitted.h"
 #include "templates/chain.h"
 
 namespace rigc::pipeline {
@@ -119,7 +121,21 @@ std::string with_rest(std::string joint, const math::Trs& rest) {
   return gltf::with_member(joint, "scale", scaled ? numbers(&rest.scale.x, 3) : "");
 }
 
-using Rests = std::map<JointKey, math::Trs>;
+/// What guides did to a joint, which stands now where somebody put it by hand.
+std::string with_fitted(std::string joint, const std::optional<math::Trs>& fitted) {
+  joint = gltf::with_member(joint, "moved", "");
+  if (!fitted) return gltf::with_member(joint, "fitted", "");
+  json::Writer writer;
+  gltf::write_rest(writer.begin_object(), *fitted);
+  return gltf::with_member(joint, "fitted", writer.end_object().take());
+}
+
+/// Where joints rest now; and where they are fitted, where guides moved what they hang on.
+struct NewRest {
+  math::Trs rest;
+  std::optional<math::Trs> fitted;
+};
+using Rests = std::map<JointKey, NewRest>;
 
 using JointTwins = std::map<JointKey, const Twin*>;
 
@@ -189,9 +205,25 @@ Rests moved_joints(const gltf::Rig& rig, const JointTwins& twins, const Rested& 
     math::Trs rest =
         templates::tidy(math::decompose(math::compose(joint.rest) * inverse(was) * is));
     rest.scale = joint.rest.scale;
-    out.emplace(joint.key, rest);
+    out.emplace(joint.key, NewRest{rest, {}});
   }
   return out;
+}
+
+/// What was adopted is there to stay: no guides put it elsewhere.
+void find_fitted(const tags::TaggedSkeleton& skeleton, Rests& rests) {
+  tags::TaggedSkeleton now = skeleton;
+  std::set<JointKey> keys;
+  for (tags::TaggedJoint& joint : now.joints) {
+    const auto found = rests.find(joint.key);
+    if (found == rests.end()) continue;
+    joint.rest = found->second.rest;
+    keys.insert(joint.key);
+  }
+  tags::settle(now, keys);
+  for (const tags::TaggedJoint& joint : now.joints)
+    if (const auto found = rests.find(joint.key); found != rests.end())
+      found->second.fitted = joint.guide.fitted;
 }
 
 /// RIGC_rig with the rests of some joints changed.
@@ -208,7 +240,8 @@ std::string with_rests(const json::Value& extension, const std::map<std::uint32_
       const auto key = parse_joint_key(texts[j]["key"].string().value_or(""));
       const auto rest = key ? moved->second.find(*key) : moved->second.end();
       if (rest != moved->second.end())
-        joints.replace(j, with_rest(std::string(texts[j].text()), rest->second));
+        joints.replace(j, with_fitted(with_rest(std::string(texts[j].text()), rest->second.rest),
+                                      rest->second.fitted));
     }
     rigs.replace(r, gltf::with_member(std::string(items[r].text()), "joints", joints.text()));
   }
@@ -243,13 +276,15 @@ void adopt_joints(const Side& edited, const Side& original, const std::vector<Tw
     const auto& [rig, joints] = own;
     Rests rests = moved_joints(*rig, joints, now, before);
     report.joints += rests.size();
+    find_fitted(rig->skeleton, rests);
     for (const tags::TaggedJoint& joint : rig->skeleton.joints) {
       const auto rest = rests.find(joint.key);
       if (rest == rests.end() || joint.foreign_node >= 0) continue;  // the model's own stay
       const int node = joints.at(joint.key)->original;
       patch.set_member("nodes", node, "translation",
-                       gltf::float_list(&rest->second.translation.x, 3));
-      patch.set_member("nodes", node, "rotation", gltf::float_list(&rest->second.rotation.x, 4));
+                       gltf::float_list(&rest->second.rest.translation.x, 3));
+      patch.set_member("nodes", node, "rotation",
+                       gltf::float_list(&rest->second.rest.rotation.x, 4));
     }
     if (!rests.empty()) moved.emplace(id, std::move(rests));
   }

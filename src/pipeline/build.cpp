@@ -140,9 +140,10 @@ std::optional<tags::TaggedSkeleton> fit_to_model(const BuildRequest& request,
 bool use_guides(const BuildRequest& request, const Prepared& prepared,
                 tags::TaggedSkeleton& skeleton, Diagnostics& diagnostics) {
   const auto guides = templates::open_guides(request.guides, prepared.catalogue, diagnostics);
+  std::vector<std::string> put_back;  // nothing was moved before
   return guides && check_guides_of(*guides, prepared.names, diagnostics) &&
-         apply_guides(*guides, *prepared.expanded, !request.model.empty(), prepared.catalogue,
-                      skeleton, diagnostics);
+         apply_guides(*guides, &*prepared.expanded, prepared.catalogue, skeleton, put_back,
+                      diagnostics);
 }
 
 }  // namespace

@@ -11,6 +11,9 @@
 #include "base/trace.h"
 #include "gltf/vertices.h"
 #include "pipeline/codes.h"
+#include "pipeline/place_again.h"
+#include "tags/fitted.h"
+#include "templates/chain.h"
 #include "templates/codes.h"
 #include "update/skeleton.h"
 
@@ -59,6 +62,51 @@ void put(std::vector<T>& into, T item, Same same) {
   into.push_back(std::move(item));
 }
 
+/// The joints of a rig that were moved themselves, by guides or elsewhere. Those that others took
+/// along are not: what is found here takes them along again.
+std::vector<templates::Guide> moved_in(const tags::TaggedSkeleton& rig, tags::TaggedSkeleton fresh,
+                                       const std::vector<std::string>& names) {
+  const std::vector<int> counterparts = update::counterparts(fresh, rig);
+  const auto place = [](const tags::TaggedSkeleton& skeleton, std::size_t joint) {
+    return templates::to_template(skeleton.character, skeleton.world(joint).origin);
+  };
+  const std::size_t count = fresh.joints.size();
+  std::vector<math::Vec3> at(count), fitted(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    at[i] = fitted[i] = place(fresh, i);
+    fresh.joints[i].guide.moved.reset();
+    if (counterparts[i] < 0 || fresh.joints[i].foreign_node >= 0) continue;
+    const auto other = static_cast<std::size_t>(counterparts[i]);
+    at[i] = place(rig, other);
+    if (rig.joints[other].guide.moved)
+      fresh.joints[i].guide.moved = templates::to_rig(fresh.character, at[i] - fitted[i]);
+  }
+  for (bool more = true; more;) {
+    more = false;
+    Diagnostics unheard;
+    const auto guided = templates::find_moves({}, nullptr, fresh, unheard);
+    for (std::size_t i = 0; guided && i < count; ++i) {
+      tags::TaggedJoint& joint = fresh.joints[i];
+      const auto found = guided->places.find(joint.key);
+      const math::Vec3& goes = found == guided->places.end() ? fitted[i] : found->second;
+      if (counterparts[i] < 0 || joint.foreign_node >= 0 || joint.guide.moved ||
+          templates::is_same_place(goes, at[i]))
+        continue;
+      joint.guide.moved = templates::to_rig(fresh.character, at[i] - fitted[i]);
+      more = true;
+    }
+  }
+  std::vector<templates::Guide> out;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!fresh.joints[i].guide.moved) continue;
+    templates::Guide& guide = out.emplace_back();
+    guide.name = names[i];
+    guide.at = at[i];
+    if (!templates::is_same_place(at[i], fitted[i])) guide.fitted = fitted[i];
+  }
+  return out;
+}
+
 /// Adds to guides what was moved and edited in a rig file.
 bool take_over(const std::string& path, const Prepared& prepared, templates::Guides& guides,
                Diagnostics& diagnostics) {
@@ -70,20 +118,39 @@ bool take_over(const std::string& path, const Prepared& prepared, templates::Gui
   if (!rig) return false;
   const tags::TaggedSkeleton& fresh = prepared.declared;
   const auto names = templates::guide_names(fresh, &*prepared.expanded);
-  const std::vector<int> counterparts = update::counterparts(fresh, rig->skeleton);
-  for (std::size_t i = 0; i < fresh.joints.size(); ++i) {
-    if (counterparts[i] < 0 || fresh.joints[i].foreign_node >= 0) continue;
-    const auto other = static_cast<std::size_t>(counterparts[i]);
-    templates::Guide guide;
-    guide.name = names[i];
-    guide.at = templates::to_template(rig->skeleton.character, rig->skeleton.world(other).origin);
-    guide.fitted = templates::to_template(fresh.character, fresh.world(i).origin);
-    if (guide.moved())
-      put(guides.joints, guide, [&](const auto& old) { return old.name == guide.name; });
-  }
+  for (templates::Guide& guide : moved_in(rig->skeleton, fresh, names))
+    put(guides.joints, guide, [&](const auto& old) { return old.name == guide.name; });
   for (const templates::ControlEdit& edit : templates::control_edits(rig->skeleton))
     put(guides.controls, edit, [&](const auto& old) { return old.control == edit.control; });
   return true;
+}
+
+/// Up the character, from the lowest joint to the highest.
+double extent(const tags::TaggedSkeleton& skeleton) {
+  double lowest = 0, highest = 0;
+  for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
+    const double at = dot(skeleton.character.up, skeleton.world(i).origin);
+    lowest = i == 0 ? at : std::min(lowest, at);
+    highest = i == 0 ? at : std::max(highest, at);
+  }
+  return highest - lowest;
+}
+
+/// A model is as high as it was; what is made of joints alone grows with them.
+double height_after(const tags::TaggedSkeleton& before, const tags::TaggedSkeleton& after) {
+  const double was = extent(before), is = extent(after), height = before.character.height;
+  return was == is || is_fitted(before) ? height : templates::tidy_length(height + (is - was));
+}
+
+std::optional<tags::TaggedSkeleton> move_joints(const tags::TaggedSkeleton& fitted,
+                                                const templates::Expanded* expanded,
+                                                const templates::Moves& moves,
+                                                Diagnostics& diagnostics) {
+  if (!moves.empty() && expanded && !is_fitted(fitted))
+    return templates::place(*expanded, fitted, moves, diagnostics);
+  std::optional<tags::TaggedSkeleton> out = fitted;
+  templates::move_joints(*out, moves);
+  return out;
 }
 
 }  // namespace
@@ -98,30 +165,26 @@ bool check_guides_of(const templates::Guides& guides, const std::vector<std::str
   return false;
 }
 
-bool apply_guides(const templates::Guides& guides, const templates::Expanded& expanded, bool fitted,
+bool apply_guides(const templates::Guides& guides, const templates::Expanded* expanded,
                   const catalog::Catalogue& catalogue, tags::TaggedSkeleton& skeleton,
-                  Diagnostics& diagnostics) {
+                  std::vector<std::string>& put_back, Diagnostics& diagnostics) {
   const trace::Span span("apply guides");
   const std::size_t errors_before = diagnostics.errors();
-  const auto moves = templates::find_moves(guides, &expanded, skeleton,
-                                           templates::Fitted::by_skeleton, diagnostics);
-  if (moves && fitted) {
-    templates::move_joints(skeleton, *moves);
-  } else if (moves && !moves->empty()) {
-    auto placed = templates::place(expanded, skeleton, *moves, diagnostics);
-    if (placed) skeleton = *std::move(placed);
+  const tags::TaggedSkeleton fitted = tags::as_fitted(skeleton);
+  auto guided = templates::find_moves(guides, expanded, fitted, diagnostics);
+  if (guided) {
+    auto moved = move_joints(fitted, expanded, guided->places, diagnostics);
+    if (!moved) return false;
+    moved->character.height = height_after(skeleton, *moved);
+    for (std::size_t i = 0; i < moved->joints.size(); ++i)
+      moved->joints[i].guide.moved = guided->moved[i];
+    tags::note_fitted(*moved, fitted);
+    skeleton = *std::move(moved);
+    put_back = std::move(guided->put_back);
   }
-  templates::add_control_edits(guides, catalogue, skeleton, diagnostics);
-  return diagnostics.errors() == errors_before;
-}
-
-bool apply_guides_again(const templates::Guides& guides, const catalog::Catalogue& catalogue,
-                        tags::TaggedSkeleton& skeleton, Diagnostics& diagnostics) {
-  const std::size_t errors_before = diagnostics.errors();
-  const auto moves =
-      templates::find_moves(guides, nullptr, skeleton, templates::Fitted::by_guides, diagnostics);
-  if (moves) templates::move_joints(skeleton, *moves);
-  templates::add_control_edits(guides, catalogue, skeleton, diagnostics);
+  for (std::string& control :
+       templates::add_control_edits(guides, catalogue, skeleton, diagnostics))
+    put_back.push_back(std::move(control));
   return diagnostics.errors() == errors_before;
 }
 

@@ -31,14 +31,12 @@ struct GuidesRequest {
 /// The guides of a build.
 std::optional<GuidesFile> write_guides(const GuidesRequest& request, Diagnostics& diagnostics);
 
-/// Puts guides over a skeleton that was placed or fitted from a template. `fitted`: of a model.
-bool apply_guides(const templates::Guides& guides, const templates::Expanded& expanded, bool fitted,
+/// Puts guides over a skeleton: placed or fitted from a template, or as a rig file has it
+/// (`expanded`: null). What they do not mention stays as it was. `put_back`: joints and controls
+/// that they set back to what the template, or the fit, made of them.
+bool apply_guides(const templates::Guides& guides, const templates::Expanded* expanded,
                   const catalog::Catalogue& catalogue, tags::TaggedSkeleton& skeleton,
-                  Diagnostics& diagnostics);
-
-/// The same over the skeleton that a rig file has, whose template is not at hand.
-bool apply_guides_again(const templates::Guides& guides, const catalog::Catalogue& catalogue,
-                        tags::TaggedSkeleton& skeleton, Diagnostics& diagnostics);
+                  std::vector<std::string>& put_back, Diagnostics& diagnostics);
 
 /// Reports guides that are not of the template with one of these names.
 bool check_guides_of(const templates::Guides& guides, const std::vector<std::string>& names,

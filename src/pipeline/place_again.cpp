@@ -160,8 +160,9 @@ void join(TaggedSkeleton& into, TaggedSkeleton from, const TaggedSkeleton& old) 
   const auto by_name = [](const auto& a, const auto& b) { return a.name == b.name; };
   unite(into.features, from.features, by_name);
   unite(into.shapes, from.shapes, by_name);
-  unite(into.module_pins, from.module_pins,
-        [](const auto& a, const auto& b) { return a.first == b.first; });
+  const auto by_first = [](const auto& a, const auto& b) { return a.first == b.first; };
+  unite(into.module_pins, from.module_pins, by_first);
+  unite(into.groups, from.groups, by_first);
 }
 
 }  // namespace

@@ -148,13 +148,13 @@ std::optional<Rebuilt> rebuild(const RebuildRequest& request, const catalog::Cat
     NewRig next;
     next.skeleton = old.skeleton;
     if (!upgrade_tags(old.modules, catalogue, next.skeleton, diagnostics)) return std::nullopt;
+    RigReport& report = out.rigs.emplace_back();
     if (guides && guides->template_name == old.skeleton.name &&
-        !apply_guides_again(*guides, catalogue, next.skeleton, diagnostics))
+        !apply_guides(*guides, nullptr, catalogue, next.skeleton, report.put_back, diagnostics))
       return std::nullopt;
     next.settings = old.settings;
     next.skeleton_only = request.unbuild;
     if (!add_settings(request, next.settings, diagnostics)) return std::nullopt;
-    RigReport& report = out.rigs.emplace_back();
     if (!old.skeleton.templates.empty()) {
       const tags::TemplateReference& main = old.skeleton.templates.front();
       report.template_name = report.template_before = main.name;

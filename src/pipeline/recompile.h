@@ -47,6 +47,7 @@ struct RigReport {
   std::string why;  ///< `new version`, `changed content`, ...
   CarryReport carry;
   std::vector<ClipComparison> clips;
+  std::vector<std::string> put_back;          ///< joints and controls that guides set back
   std::vector<std::string> dropped_settings;  ///< that the new template does not have
   std::vector<std::string> skinned_joints;    ///< gone from the template, but a skin uses them
 };

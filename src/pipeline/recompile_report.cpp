@@ -157,6 +157,7 @@ std::string as_text(const RigReport& report, bool verbose) {
   const CarryReport& carry = report.carry;
   add_names(text, carry.joints_added, "joint", "added", verbose);
   add_names(text, carry.joints_removed, "joint", "removed", verbose);
+  add_names(text, report.put_back, "edit", "set back by the guides", verbose);
   add_names(text, report.skinned_joints, "joint", "kept, because a skin uses them", verbose);
   add_names(text, carry.controls_added, "control", "added", verbose);
   add_names(text, carry.controls_removed, "control", "removed", verbose);
@@ -183,6 +184,7 @@ void write_json(json::Writer& writer, const RigReport& report) {
   write_names(writer, "controls_added", carry.controls_added);
   write_names(writer, "controls_removed", carry.controls_removed);
   write_names(writer, "controls_moved", carry.controls_moved);
+  write_names(writer, "set_back", report.put_back);
   write_names(writer, "settings_dropped", report.dropped_settings);
   writer.member("kept_channels", carry.kept_channels).member("kept_values", carry.kept_values);
   writer.member("orphans", carry.orphans).member("new_orphans", carry.new_orphans);

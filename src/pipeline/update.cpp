@@ -67,6 +67,7 @@ tags::Settings known_settings(const tags::Settings& settings, const TaggedSkelet
   const auto takes = [&](tags::Settings one) {
     TaggedSkeleton copy;  // names only
     copy.features = skeleton.features;
+    copy.groups = skeleton.groups;
     for (const tags::TaggedJoint& joint : skeleton.joints) {
       tags::TaggedJoint& slim = copy.joints.emplace_back();
       slim.ids = joint.ids;

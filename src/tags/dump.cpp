@@ -55,6 +55,14 @@ void dump_joint(const TaggedSkeleton& skeleton, const TaggedJoint& joint, std::s
   if (joint.mirror.mirrored) out += " mirrored";
   if (joint.mirror.opposite.uid != 0) out += " opposite " + to_text(joint.mirror.opposite);
   if (joint.foreign_node >= 0) out += fmt::format(" node {}", joint.foreign_node);
+  if (joint.guide.between[0].uid != 0)
+    out += fmt::format(" between {} {} {}", to_text(joint.guide.between[0]),
+                       to_text(joint.guide.between[1]), number_text(joint.guide.share));
+  if (joint.guide.toward.uid != 0)
+    out += fmt::format(" toward {} up {}", to_text(joint.guide.toward), text(joint.guide.up));
+  if (const auto& fitted = joint.guide.fitted)
+    out += fmt::format(" fitted at {} {}", text(fitted->translation), text(fitted->rotation));
+  if (joint.guide.moved) out += " moved " + text(*joint.guide.moved);
   for (const JointKey& key : joint.was) out += " was " + to_text(key);
   out += "\n";
   for (const CommandTag& command : joint.commands) dump_command(joint, command, out);
@@ -74,6 +82,8 @@ std::string dump(const TaggedSkeleton& skeleton) {
                        feature.on ? "" : " off", join(feature.switches, ", "));
   for (const NamedShape& shape : skeleton.shapes)
     out += fmt::format("shape {} {}\n", shape.name, shape.lines.size());
+  for (const auto& [group, above] : skeleton.groups)
+    out += fmt::format("group {} in {}\n", group, above);
   const Character& character = skeleton.character;
   out += fmt::format("character up {} left {} forward {} height {} unit {}\n", text(character.up),
                      text(character.left), text(character.forward), number_text(character.height),

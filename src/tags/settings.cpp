@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "base/text.h"
@@ -32,13 +33,34 @@ std::vector<std::string> sorted(const std::set<std::string>& names) {
   return {names.begin(), names.end()};
 }
 
+/// Which groups were made beneath which.
+class Groups {
+ public:
+  explicit Groups(const TaggedSkeleton& skeleton)
+      : above_(skeleton.groups.begin(), skeleton.groups.end()) {}
+  /// The group itself, the one that it was made beneath, the one that that was, ...
+  std::vector<std::string> upwards(const std::string& group) const {
+    std::vector<std::string> out{group};
+    for (auto at = above_.find(group); at != above_.end() && out.size() <= above_.size();
+         at = above_.find(at->second))
+      out.push_back(at->second);
+    return out;
+  }
+
+ private:
+  std::map<std::string, std::string> above_;
+};
+
 /// Checks the names of one feature setting against all tags of the skeleton.
-void check_feature(const TaggedSkeleton& skeleton, const Settings::Feature& setting,
-                   Diagnostics& diagnostics) {
+void check_feature(const TaggedSkeleton& skeleton, const Groups& tree,
+                   const Settings::Feature& setting, Diagnostics& diagnostics) {
   std::set<std::string> groups, names, switches;
   for (const TaggedJoint& joint : skeleton.joints) {
-    groups.insert(joint.ids.local);
-    if (!setting.group.empty() && joint.ids.local != setting.group) continue;
+    const std::vector<std::string> around = tree.upwards(joint.ids.local);
+    groups.insert(around.begin(), around.end());
+    if (!setting.group.empty() &&
+        std::find(around.begin(), around.end(), setting.group) == around.end())
+      continue;
     for (const FeatureTag& feature : joint.features) {
       if (!feature.name.empty()) names.insert(feature.name);
       if (feature.name == setting.name && !feature.switch_name.empty())
@@ -71,28 +93,34 @@ void check_feature(const TaggedSkeleton& skeleton, const Settings::Feature& sett
                        suggest(setting.switch_name, sorted(switches)));
 }
 
-/// The last setting that names what a tag says; one for its group counts before one for all.
+/// The last setting that names what a tag says, of those for the nearest group that has one; those
+/// for all come last. `around`: the tag's group and those that it was made beneath.
 std::optional<bool> find_setting(const std::vector<Settings::Feature>& settings,
-                                 const std::string& group, const FeatureTag& feature,
+                                 const std::vector<std::string>& around, const FeatureTag& feature,
                                  const std::string& switch_name) {
-  std::optional<bool> everywhere, here;
+  std::optional<bool> out;
+  std::size_t nearest = around.size();
   for (const Settings::Feature& setting : settings) {
     if (setting.name != feature.name || setting.switch_name != switch_name) continue;
-    if (setting.group.empty())
-      everywhere = setting.on;
-    else if (setting.group == group)
-      here = setting.on;
+    const auto group = std::find(around.begin(), around.end(), setting.group);
+    const auto distance = static_cast<std::size_t>(group - around.begin());
+    if ((distance == around.size() && !setting.group.empty()) || distance > nearest) continue;
+    nearest = distance;
+    out = setting.on;
   }
-  return here ? here : everywhere;
+  return out;
 }
 
-void apply_to(TaggedJoint& joint, const std::vector<Settings::Feature>& settings) {
+void apply_to(TaggedJoint& joint, const Groups& groups,
+              const std::vector<Settings::Feature>& settings) {
+  if (joint.features.empty()) return;
+  const std::vector<std::string> around = groups.upwards(joint.ids.local);
   for (FeatureTag& feature : joint.features) {
     if (feature.name.empty()) continue;
-    const auto whole = find_setting(settings, joint.ids.local, feature, "");
+    const auto whole = find_setting(settings, around, feature, "");
     const auto part = feature.switch_name.empty()
                           ? std::nullopt
-                          : find_setting(settings, joint.ids.local, feature, feature.switch_name);
+                          : find_setting(settings, around, feature, feature.switch_name);
     if (whole) feature.on = *whole;
     if (part) feature.on = whole ? *whole && *part : *part;
   }
@@ -148,11 +176,12 @@ std::optional<bool> parse_switch(std::string_view option, std::string_view text,
 
 bool apply(TaggedSkeleton& skeleton, const Settings& settings, Diagnostics& diagnostics) {
   const std::size_t errors_before = diagnostics.errors();
+  const Groups tree(skeleton);
   std::set<std::string> groups;
   for (const TaggedJoint& joint : skeleton.joints)
     if (!joint.ids.local.empty()) groups.insert(joint.ids.local);
   for (const Settings::Feature& setting : settings.features)
-    check_feature(skeleton, setting, diagnostics);
+    check_feature(skeleton, tree, setting, diagnostics);
   for (const auto& [group, on] : settings.groups)
     if (!groups.contains(group))
       diagnostics.report(codes::kUnknownGroup, Place(),
@@ -168,7 +197,7 @@ bool apply(TaggedSkeleton& skeleton, const Settings& settings, Diagnostics& diag
       off.insert(group);
   }
   for (TaggedJoint& joint : skeleton.joints) {
-    apply_to(joint, settings.features);
+    apply_to(joint, tree, settings.features);
     if (off.contains(joint.ids.local))
       for (CommandTag& command : joint.commands) command.on = false;
   }

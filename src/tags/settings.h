@@ -25,7 +25,8 @@ std::optional<bool> parse_switch(std::string_view option, std::string_view text,
                                  Diagnostics& diagnostics);
 
 /// Sets `on` of features and commands. A feature tag is on when its feature and its switch are; the
-/// last setting that names it counts, one for a group before one for all. Where no setting names a
+/// last setting that names it counts; one for a group counts for those that were made beneath it
+/// too, and before one for a wider group or for all, whatever their order. Where no setting names a
 /// feature itself, turning one of its switches on turns that part of it on. Commands on joints of a
 /// group that is off become off. Names that the skeleton does not have are errors; the skeleton is
 /// changed only without errors.

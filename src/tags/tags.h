@@ -54,6 +54,17 @@ struct Mirror {
   JointKey opposite;  ///< the joint on the other side; uid 0: none
 };
 
+/// What guides did to a joint, and what it goes along with.
+struct Guiding {
+  std::optional<math::Trs> fitted;  ///< its rest before guides; empty: they left it as it was
+  std::optional<math::Vec3> moved;  ///< how far they moved it itself, in the rig's space; empty: it
+                                    ///< went along with others, or stayed
+  std::array<JointKey, 2> between;  ///< joints that take it along; uid 0: none
+  double share = 0.5;               ///< how much of the second one's way it goes
+  JointKey toward;                  ///< the joint that its axes follow; uid 0: its parent
+  math::Vec3 up;                    ///< beside that: in the rig's space
+};
+
 struct TaggedJoint {
   std::string name;  ///< for people
   JointKey key;
@@ -65,6 +76,7 @@ struct TaggedJoint {
   math::Trs rest;  ///< local rest transform, relative to the parent (roots: to the rig's space)
   bool optional = false;
   Mirror mirror;
+  Guiding guide;
   std::vector<FeatureTag> features;
   std::vector<CommandTag> commands;  ///< top to bottom
   int template_index = 0;            ///< into TaggedSkeleton::templates
@@ -111,7 +123,10 @@ struct TaggedSkeleton {
   std::vector<TemplateReference> templates;  ///< the main one first, then its parts
   std::vector<std::pair<std::string, int>> module_pins;
   std::vector<NamedShape> shapes;  ///< that templates bring
+  /// Local groups of parts, each with the group that it was made beneath: `arm_l_hand`, `arm_l`.
+  std::vector<std::pair<std::string, std::string>> groups;
   Character character;
+  bool aims = false;  ///< joints say what their axes follow (Guiding::toward)
   /// Rest matrix of a joint in rig space.
   math::Affine world(std::size_t joint) const;
   /// Index by key; -1 if absent.

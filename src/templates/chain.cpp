@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace rigc::templates {
 namespace {
 
@@ -42,5 +44,7 @@ math::Trs tidy(math::Trs trs) {
     if (near(*part, 0, 1e-15)) *part = 0;
   return trs;
 }
+
+double tidy_length(double length) { return std::nearbyint(length * 1e12) / 1e12; }
 
 }  // namespace rigc::templates

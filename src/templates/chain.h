@@ -15,5 +15,7 @@ tags::TaggedJoint joint_of(const ExpandedJoint& joint, std::uint32_t ordinal);
 
 /// Without the noise of computing: scales that are 1, lengths below a picometre.
 math::Trs tidy(math::Trs trs);
+/// A length without what sums round off, so that two ways to measure it agree.
+double tidy_length(double length);
 
 }  // namespace rigc::templates

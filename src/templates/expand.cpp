@@ -135,6 +135,7 @@ void Expander::add_joint(int use, std::size_t index) {
   tagged.name = owner.prefix + source.name;
   tagged.ids = source.ids;
   tagged.ids.local = final_group(use, source.ids.local);
+  add_group(use, source.ids.local);
   if (tagged.ids.global.empty()) tagged.ids.global = main_.global;
   tagged.optional = source.optional;
   tagged.mirror.mirrored = owner.mirrored != source.mirrored;
@@ -223,13 +224,18 @@ Expanded Expander::finish() {
     raw.result.tagged.parent = renumbered(raw.parent);
     raw.result.toward = renumbered(raw.result.toward);
     raw.result.opposite = renumbered(raw.result.opposite);
-    for (int& end : raw.result.between) end = renumbered(end);
     out.joints.push_back(std::move(raw.result));
   }
-  for (ExpandedJoint& joint : out.joints)
-    if (joint.opposite >= 0)
-      joint.tagged.mirror.opposite =
-          out.joints[static_cast<std::size_t>(joint.opposite)].tagged.key;
+  const auto key_of = [&](int joint) {
+    return out.joints[static_cast<std::size_t>(joint)].tagged.key;
+  };
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    ExpandedJoint& joint = out.joints[i];
+    if (joint.opposite >= 0) joint.tagged.mirror.opposite = key_of(joint.opposite);
+    const RawJoint& raw = joints_[static_cast<std::size_t>(sorted[i])];
+    const int first = renumbered(raw.between[0]), second = renumbered(raw.between[1]);
+    if (first >= 0 && second >= 0) joint.tagged.guide.between = {key_of(first), key_of(second)};
+  }
   for (const Use& use : uses_) {
     Instance instance;
     instance.outer = use.outer;

@@ -31,10 +31,8 @@ struct ExpandedJoint {
   Placement placement;         ///< in the instance's model space
   std::optional<Chain> chain;  ///< its count is final
   bool helper = false;
-  int toward = -1;            ///< the joint that `orient` aims at; -1: none
-  int opposite = -1;          ///< index of the joint on the other side
-  int between[2] = {-1, -1};  ///< joints whose guides take it along; -1: none
-  double share = 0.5;         ///< how much of the second one's way it goes
+  int toward = -1;    ///< the joint that `orient` aims at; -1: none
+  int opposite = -1;  ///< index of the joint on the other side
   int instance = 0;
   std::size_t ordinal_in_template = 0;  ///< index into the joints of the instance's template
 };

@@ -40,6 +40,30 @@ std::string Expander::final_group(int use, std::string local) const {
   return local;
 }
 
+/// Neither bound from outside nor what the part itself is called.
+bool Expander::is_own_group(const Use& use, const std::string& local) const {
+  const auto& bound = use.part->groups;
+  return !use.source->is_main_group(local) &&
+         std::none_of(bound.begin(), bound.end(),
+                      [&](const auto& group) { return group.first == local; });
+}
+
+/// Notes beneath which group a part's own group was made, and beneath which that one.
+void Expander::add_group(int use, std::string local) {
+  while (!local.empty() && uses_[static_cast<std::size_t>(use)].part) {
+    const Use& own = uses_[static_cast<std::size_t>(use)];
+    if (is_own_group(own, local)) {
+      std::string name = final_group(use, local);
+      if (!groups_.insert(name).second) return;
+      skeleton_.groups.emplace_back(std::move(name), final_group(own.outer, own.part->as));
+      local = own.part->as;
+    } else {
+      local = group_in_outer(own, local);
+    }
+    use = own.outer;
+  }
+}
+
 void Expander::register_handles(int index) {
   const RawJoint& joint = joints_[static_cast<std::size_t>(index)];
   std::string name = joint.source->name;
@@ -130,9 +154,9 @@ void Expander::resolve_between() {
                           fmt::format("the guide of {} does not lie between two placed joints",
                                       joint.result.tagged.name),
                           "name two joints that have no `guide:` themselves");
-    joint.result.between[0] = a;
-    joint.result.between[1] = b;
-    joint.result.share = between->share;
+    joint.between[0] = a;
+    joint.between[1] = b;
+    joint.result.tagged.guide.share = between->share;
   }
 }
 

@@ -52,6 +52,7 @@ struct RawJoint {
   const Joint* source = nullptr;
   int use = 0;
   int parent = kRoot;
+  int between[2] = {-1, -1};     ///< joints whose guides take it along; -1: none
   std::vector<bool> on_written;  ///< for each feature tag
 };
 
@@ -80,7 +81,9 @@ class Expander {
   // expand_names.cpp
   void register_handles(int joint);
   std::string group_in_outer(const Use& use, const std::string& local) const;
+  bool is_own_group(const Use& use, const std::string& local) const;
   std::string final_group(int use, std::string local) const;
+  void add_group(int use, std::string local);
   void resolve_parents();
   void resolve_between();
   int resolve(int use, const std::string& word, const Span& span, const char* key);
@@ -116,7 +119,8 @@ class Expander {
   std::vector<RawJoint> joints_;
   std::vector<const Template*> templates_;
   tags::TaggedSkeleton skeleton_;
-  std::size_t joint_count_ = 0;  ///< with all joints of chains
+  std::set<std::string> groups_;  ///< of parts, that are in skeleton_.groups
+  std::size_t joint_count_ = 0;   ///< with all joints of chains
   bool full_ = false;
   std::set<const Part*> left_out_;  ///< that were reported
   /// Tags that were reported: a part that is used twice has its mistakes once.

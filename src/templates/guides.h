@@ -31,9 +31,9 @@ struct Guide {
 
 /// `arm_l.wrist/ik_fk_limb.ik: {shape: cube, size: 1.2}`: parameters of the module edit_shape.
 struct ControlEdit {
-  std::string control;  ///< a selector
-  std::vector<tags::Argument> with;
-  Span span;  ///< of the selector
+  std::string control;               ///< a selector
+  std::vector<tags::Argument> with;  ///< empty: as the template has it
+  Span span;                         ///< of the selector
 };
 
 struct Guides {
@@ -58,15 +58,21 @@ std::optional<Guides> open_guides(const std::string& path, const catalog::Catalo
 std::vector<std::string> guide_names(const tags::TaggedSkeleton& skeleton,
                                      const Expanded* expanded);
 
-/// What a rig was built with before counts as fitted, where the guides file says it.
-enum class Fitted : std::uint8_t { by_skeleton, by_guides };
+/// What guides make of a skeleton.
+struct Guided {
+  Moves places;  ///< of joints that go elsewhere than they were fitted
+  /// By joint: how far it was moved itself, in the rig's space.
+  std::vector<std::optional<math::Vec3>> moved;
+  std::vector<std::string> put_back;  ///< joints that were moved before and are not any more
+};
 
-/// The joints that guides move: those that were moved themselves, those that mirror one, a limb
-/// whose first joint was moved, what hangs on it, and joints between two others, of which
-/// `expanded` (null: only chains) knows. Bones of a model stay; moving one is an error.
-std::optional<Moves> find_moves(const Guides& guides, const Expanded* expanded,
-                                const tags::TaggedSkeleton& skeleton, Fitted fitted,
-                                Diagnostics& diagnostics);
+/// Where guides put the joints of a skeleton that stands as it was fitted: those that were moved
+/// themselves, by this file or, where it does not mention them, before (tags::Guiding::moved),
+/// those that mirror one of the file, a limb whose first joint was moved, what hangs on it, and
+/// joints between two others. Bones of a model stay; moving one is an error. `expanded` (may be
+/// null) knows handles.
+std::optional<Guided> find_moves(const Guides& guides, const Expanded* expanded,
+                                 const tags::TaggedSkeleton& fitted, Diagnostics& diagnostics);
 
 /// The template's own skeleton with moved joints: what `orient:` says is done anew. `placed`: as it
 /// is without.
@@ -77,9 +83,12 @@ std::optional<tags::TaggedSkeleton> place(const Expanded& expanded,
 /// of their axes turn with it, others turn with what they hang on.
 void move_joints(tags::TaggedSkeleton& skeleton, const Moves& moves);
 
-/// Gives the edits of controls to the skeleton as commands, in place of those of earlier guides.
-void add_control_edits(const Guides& guides, const catalog::Catalogue& catalogue,
-                       tags::TaggedSkeleton& skeleton, Diagnostics& diagnostics);
+/// Gives the edits of controls to the skeleton as commands; earlier ones of controls that the file
+/// does not mention stay. Gives the controls that were edited before and are not any more.
+std::vector<std::string> add_control_edits(const Guides& guides,
+                                           const catalog::Catalogue& catalogue,
+                                           tags::TaggedSkeleton& skeleton,
+                                           Diagnostics& diagnostics);
 /// The edits that a skeleton has from guides.
 std::vector<ControlEdit> control_edits(const tags::TaggedSkeleton& skeleton);
 /// Carries the edits of controls over to another version of the template's skeleton.

@@ -16,6 +16,8 @@ using math::Vec3;
 
 /// Cosine of the angle within which an axis of a joint lies along its bone.
 constexpr double kAlong = 0.9999;
+/// Sine of the angle by which a bone and the direction beside it differ at least.
+constexpr double kBesideUp = 1e-4;
 
 JointKey whole(JointKey key) {
   key.ordinal = 0;
@@ -81,6 +83,7 @@ class Turner {
  private:
   Vec3 moved_to(std::size_t joint) const;
   std::optional<Mat3> turn_of_bone(std::size_t joint) const;
+  std::optional<Mat3> turn_of_aim(std::size_t joint) const;
 
   tags::TaggedSkeleton& skeleton_;
   const Moves& moves_;
@@ -115,6 +118,24 @@ std::optional<Mat3> Turner::turn_of_bone(std::size_t joint) const {
   return std::nullopt;
 }
 
+/// How a joint turns whose template says what it aims at.
+std::optional<Mat3> Turner::turn_of_aim(std::size_t joint) const {
+  const tags::Guiding& guide = skeleton_.joints[joint].guide;
+  const int at = guide.toward.uid != 0 ? skeleton_.find(guide.toward) : -1;
+  if (at < 0) return std::nullopt;
+  const auto target = static_cast<std::size_t>(at);
+  const Vec3 was = before_[target].origin - before_[joint].origin;
+  const Vec3 is = moved_to(target) - moved_to(joint);
+  if (was == is) return Mat3{};
+  const auto aims = [&](Vec3 bone) {
+    const double size = length(bone);
+    return size > 1e-9 * skeleton_.character.height &&
+           length(cross(bone, guide.up)) > kBesideUp * size * length(guide.up);
+  };
+  if (!aims(was) || !aims(is)) return std::nullopt;
+  return math::frame(normalised(is), guide.up) * transposed(math::frame(normalised(was), guide.up));
+}
+
 void Turner::run() {
   std::vector<Mat3> turns(before_.size());
   std::vector<Affine> after = before_;
@@ -124,7 +145,8 @@ void Turner::run() {
     const int parent = joint.parent;
     const auto above = static_cast<std::size_t>(std::max(parent, 0));
     const Mat3 carried = parent >= 0 && joint.foreign_node < 0 ? turns[above] : Mat3{};
-    turns[i] = turn_of_bone(i).value_or(carried);
+    const auto own = skeleton_.aims ? turn_of_aim(i) : turn_of_bone(i);
+    turns[i] = own.value_or(carried);
     const Vec3 to = moved_to(i);
     changed[i] = !(turns[i] == Mat3{}) || !(to == before_[i].origin);
     if (!changed[i] && (parent < 0 || !changed[above])) continue;

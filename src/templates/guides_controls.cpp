@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "base/text.h"
 #include "selector/selector.h"
@@ -54,56 +55,81 @@ int holder_of(const tags::TaggedSkeleton& skeleton, const selector::Choice& choi
   return first;
 }
 
-/// The same control on the other side; empty where there is none.
-std::string other_control(const tags::TaggedSkeleton& skeleton, selector::Selector control,
-                          int holder, Guides::Mirror mirror) {
+/// The joint of a group that a selector gives a number of; -1: it says something else.
+int numbered_joint(const tags::TaggedSkeleton& skeleton, const selector::Choice& choice) {
+  if (choice.indices.size() != 1 || choice.indices[0].all || choice.indices[0].last) return -1;
+  std::vector<int> group;
+  for (std::size_t i = 0; i < skeleton.joints.size(); ++i)
+    if (skeleton.joints[i].ids.local == choice.local) group.push_back(static_cast<int>(i));
+  const selector::Index& index = choice.indices[0].first;
+  const int count = static_cast<int>(group.size());
+  using Kind = selector::Index::Kind;
+  const int at = index.kind == Kind::start    ? 0
+                 : index.kind == Kind::middle ? -1
+                 : index.kind == Kind::end    ? count - 1
+                 : index.number < 0           ? count + index.number
+                                              : index.number;
+  return at >= 0 && at < count ? group[static_cast<std::size_t>(at)] : -1;
+}
+
+/// One name for each control: a joint with a label of its own is called by it.
+selector::Selector canonical(const tags::TaggedSkeleton& skeleton,
+                             const std::vector<std::string>& names, selector::Selector control) {
+  selector::Choice& choice = control.choices.front();
+  const int joint = choice.label.empty() ? numbered_joint(skeleton, choice) : -1;
+  if (joint < 0) return control;
+  const auto at = static_cast<std::size_t>(joint);
+  const std::string& label = skeleton.joints[at].ids.label;
+  if (names[at] != choice.local + "." + label) return control;
+  choice.label = label;
+  choice.indices.clear();
+  return control;
+}
+
+/// The same control on the other side, with the joint that a command about it stands on; -1: there
+/// is none.
+std::pair<selector::Selector, int> other_control(const tags::TaggedSkeleton& skeleton,
+                                                 const std::vector<std::string>& names,
+                                                 selector::Selector control, int holder,
+                                                 Guides::Mirror mirror) {
   const tags::TaggedJoint& joint = skeleton.joints[static_cast<std::size_t>(holder)];
   const int other = joint.mirror.opposite.uid != 0 ? skeleton.find(joint.mirror.opposite) : -1;
-  if (other < 0 || mirror == Guides::Mirror::none) return {};
+  if (other < 0 || mirror == Guides::Mirror::none) return {std::move(control), -1};
   const auto side = [&](int index) {
     return to_template(skeleton.character, skeleton.world(static_cast<std::size_t>(index)).origin)
         .x;
   };
   const bool left = side(holder) > side(other);
   if (mirror != Guides::Mirror::both && left != (mirror == Guides::Mirror::left_to_right))
-    return {};
+    return {std::move(control), -1};
   selector::Choice& choice = control.choices.front();
   const Identifiers& ids = skeleton.joints[static_cast<std::size_t>(other)].ids;
   choice.local = ids.local;
   if (choice.label == joint.ids.label) choice.label = ids.label;
-  return selector::print(control);
+  return {canonical(skeleton, names, std::move(control)), other};
 }
 
-void add_command(tags::TaggedSkeleton& skeleton, int holder, const std::string& control,
-                 const ControlEdit& edit) {
-  tags::CommandTag command;
-  command.module = kModule;
-  command.id = id_of(control);
-  command.span = edit.span;
-  Literal selector = Literal::of(control + "?");  // a feature that is off makes no control
-  selector.span = edit.span;
-  command.with.push_back({"control", edit.span, std::move(selector)});
-  command.with.insert(command.with.end(), edit.with.begin(), edit.with.end());
-  skeleton.joints[static_cast<std::size_t>(holder)].commands.push_back(std::move(command));
-}
+/// What a file says of a control.
+struct Wanted {
+  int holder = -1;
+  std::string control;
+  const ControlEdit* edit = nullptr;  ///< without parameters: as the template has it
+  selector::Selector selector;
+};
+using AllWanted = std::map<std::string, Wanted>;  ///< by command id
 
-void drop_commands(tags::TaggedSkeleton& skeleton) {
-  for (tags::TaggedJoint& joint : skeleton.joints) std::erase_if(joint.commands, is_from_guides);
-}
-
-}  // namespace
-
-void add_control_edits(const Guides& guides, const catalog::Catalogue& catalogue,
-                       tags::TaggedSkeleton& skeleton, Diagnostics& diagnostics) {
-  drop_commands(skeleton);
-  std::vector<std::string> written;
-  for (const ControlEdit& edit : guides.controls) written.push_back(edit.control);
+AllWanted read_wanted(const Guides& guides, const catalog::Catalogue& catalogue,
+                      const tags::TaggedSkeleton& skeleton, const std::vector<std::string>& names,
+                      Diagnostics& diagnostics) {
+  AllWanted out;
   for (const ControlEdit& edit : guides.controls) {
-    const auto control = parse_control(edit, diagnostics);
+    auto control = parse_control(edit, diagnostics);
     if (!control) continue;
+    control = canonical(skeleton, names, *std::move(control));
     const selector::Choice& choice = control->choices.front();
     const int holder = holder_of(skeleton, choice);
     if (holder < 0 || !catalogue.find(choice.made->module)) {
+      if (edit.with.empty()) continue;  // nothing is asked of it
       std::vector<std::string> groups;
       for (const tags::TaggedJoint& joint : skeleton.joints)
         if (std::find(groups.begin(), groups.end(), joint.ids.local) == groups.end())
@@ -114,14 +140,77 @@ void add_control_edits(const Guides& guides, const catalog::Catalogue& catalogue
                                     : suggest(choice.made->module, catalogue.modules()));
       continue;
     }
-    add_command(skeleton, holder, selector::print(*control), edit);
-    const std::string other = other_control(skeleton, *control, holder, guides.mirror);
-    if (other.empty() || std::find(written.begin(), written.end(), other) != written.end())
-      continue;
-    const int other_holder =
-        skeleton.find(skeleton.joints[static_cast<std::size_t>(holder)].mirror.opposite);
-    add_command(skeleton, other_holder, other, edit);
+    const std::string text = selector::print(*control);
+    if (!out.emplace(id_of(text), Wanted{holder, text, &edit, *control}).second)
+      diagnostics.report(
+          codes::kGuideTwice, edit.span,
+          fmt::format("{} is another name of a control above", printable(edit.control, 100)),
+          "keep one of them");
   }
+  return out;
+}
+
+/// What is said of one side is said of the other, where nothing else is.
+void mirror_wanted(const Guides& guides, const tags::TaggedSkeleton& skeleton,
+                   const std::vector<std::string>& names, AllWanted& wanted) {
+  const AllWanted written = wanted;
+  for (const auto& [id, one] : written) {
+    const auto [other, holder] =
+        other_control(skeleton, names, one.selector, one.holder, guides.mirror);
+    if (holder < 0) continue;
+    const std::string text = selector::print(other);
+    const auto own = written.find(id_of(text));
+    if (own == written.end() || (own->second.edit->with.empty() && !one.edit->with.empty()))
+      wanted[id_of(text)] = {holder, text, one.edit, other};
+  }
+}
+
+void add_command(tags::TaggedSkeleton& skeleton, const std::string& id, const Wanted& wanted) {
+  const ControlEdit& edit = *wanted.edit;
+  tags::CommandTag command;
+  command.module = kModule;
+  command.id = id;
+  command.span = edit.span;
+  Literal selector = Literal::of(wanted.control + "?");  // a feature that is off makes no control
+  selector.span = edit.span;
+  command.with.push_back({"control", edit.span, std::move(selector)});
+  command.with.insert(command.with.end(), edit.with.begin(), edit.with.end());
+  auto& commands = skeleton.joints[static_cast<std::size_t>(wanted.holder)].commands;
+  const auto earlier = std::find_if(commands.begin(), commands.end(),
+                                    [&](const tags::CommandTag& tag) { return tag.id == id; });
+  if (earlier != commands.end())
+    *earlier = std::move(command);
+  else
+    commands.push_back(std::move(command));
+}
+
+}  // namespace
+
+std::vector<std::string> add_control_edits(const Guides& guides,
+                                           const catalog::Catalogue& catalogue,
+                                           tags::TaggedSkeleton& skeleton,
+                                           Diagnostics& diagnostics) {
+  const std::vector<std::string> names = guide_names(skeleton, nullptr);
+  AllWanted wanted = read_wanted(guides, catalogue, skeleton, names, diagnostics);
+  mirror_wanted(guides, skeleton, names, wanted);
+  std::vector<std::string> put_back;
+  for (const ControlEdit& edit : control_edits(skeleton))
+    if (const auto found = wanted.find(id_of(edit.control));
+        found != wanted.end() && found->second.edit->with.empty())
+      put_back.push_back(edit.control);
+  for (std::size_t i = 0; i < skeleton.joints.size(); ++i)
+    std::erase_if(skeleton.joints[i].commands, [&](const tags::CommandTag& command) {
+      const auto found = is_from_guides(command) ? wanted.find(command.id) : wanted.end();
+      return found != wanted.end() &&
+             (found->second.edit->with.empty() || found->second.holder != static_cast<int>(i));
+    });
+  std::vector<AllWanted::const_iterator> in_order;  // of the file
+  for (auto one = wanted.cbegin(); one != wanted.cend(); ++one)
+    if (!one->second.edit->with.empty()) in_order.push_back(one);
+  std::stable_sort(in_order.begin(), in_order.end(),
+                   [](const auto& a, const auto& b) { return a->second.edit < b->second.edit; });
+  for (const auto& one : in_order) add_command(skeleton, one->first, one->second);
+  return put_back;
 }
 
 std::vector<ControlEdit> control_edits(const tags::TaggedSkeleton& skeleton) {

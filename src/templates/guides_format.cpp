@@ -28,7 +28,8 @@ const Section& guides_format() {
         {.null = true}},
        {"controls",
         Form::values,
-        "A selector of a control to `{shape, size, offset, rotate, color}`.",
+        "A selector of a control to `{shape, size, offset, rotate, color}`; `{}`: as the template "
+        "has it.",
         {.null = true}}}};
   return kFormat;
 }

@@ -17,25 +17,26 @@ using math::Vec3;
 
 class Mover {
  public:
-  Mover(const Guides& guides, const Expanded* expanded, const tags::TaggedSkeleton& skeleton,
-        Fitted fitted, Diagnostics& diagnostics)
-      : guides_(guides),
-        expanded_(expanded),
-        skeleton_(skeleton),
-        fitted_(fitted),
-        diagnostics_(diagnostics) {}
-  std::optional<Moves> run();
+  Mover(const Guides& guides, const Expanded* expanded, const tags::TaggedSkeleton& fitted,
+        Diagnostics& diagnostics)
+      : guides_(guides), expanded_(expanded), skeleton_(fitted), diagnostics_(diagnostics) {}
+  std::optional<Guided> run();
 
  private:
   enum class State : std::uint8_t { unknown, open, known };
+  /// What the file says of a joint.
+  enum class Said : std::uint8_t { nothing, back, moved };
 
   void find_names();
-  void find_places();
   void find_rules();
   void find_chain(std::size_t first);
-  void read_edits();
-  void mirror_edits();
-  int index_of(int expanded, bool last) const;
+  int last_of_chain(int joint) const;
+  void read_file();
+  void read_guide(const Guide& guide, std::size_t joint);
+  void mirror_file();
+  void add_earlier();
+  Vec3 mirrored(Vec3 way) const;
+  bool is_same(Vec3 a, Vec3 b) const;
   int limb_base(std::size_t joint) const;
   bool in_same_limb(int a, std::size_t b) const;
   Vec3 way_of(int joint) { return joint < 0 ? Vec3{} : way(static_cast<std::size_t>(joint)); }
@@ -45,15 +46,16 @@ class Mover {
   const Guides& guides_;
   const Expanded* expanded_;
   const tags::TaggedSkeleton& skeleton_;
-  Fitted fitted_;
   Diagnostics& diagnostics_;
   struct Rule {
     int first = -1, second = -1;  ///< joints that take it along
     double share = 0;
   };
+  std::vector<std::string> own_names_;
   std::map<std::string, int> names_;        ///< every name of a joint; -1: of several
-  std::vector<Vec3> now_, base_;            ///< by joint: where it stands, where it was fitted
+  std::vector<Vec3> base_;                  ///< by joint: where it was fitted, in the rig's space
   std::vector<Rule> rules_;                 ///< by joint
+  std::vector<Said> said_;                  ///< by joint
   std::vector<std::optional<Vec3>> edits_;  ///< by joint: how far it was moved
   std::vector<Vec3> ways_;                  ///< by joint: how far it goes
   std::vector<State> states_;
@@ -65,34 +67,26 @@ void Mover::find_names() {
     if (!fresh && other->second != static_cast<int>(joint)) other->second = -1;
   };
   std::map<std::string, int> counts;
-  const std::vector<std::string> own = guide_names(skeleton_, expanded_);
+  own_names_ = guide_names(skeleton_, expanded_);
   for (std::size_t i = 0; i < skeleton_.joints.size(); ++i) {
     const tags::TaggedJoint& joint = skeleton_.joints[i];
     const int number = joint.ids.local.empty() ? 0 : counts[joint.ids.local]++;
-    if (own[i].empty()) continue;
+    if (own_names_[i].empty()) continue;
     add(to_text(joint.key), i);
-    add(own[i], i);
+    add(own_names_[i], i);
     if (!joint.ids.local.empty()) add(fmt::format("{}[{}]", joint.ids.local, number), i);
   }
 }
 
-void Mover::find_places() {
-  for (std::size_t i = 0; i < skeleton_.joints.size(); ++i)
-    now_.push_back(to_template(skeleton_.character, skeleton_.world(i).origin));
-  base_ = now_;
-}
-
-/// In the skeleton: the last or first joint of a chain; -1 where the fit left it out.
-int Mover::index_of(int expanded, bool last) const {
-  JointKey key = expanded_->joints[static_cast<std::size_t>(expanded)].tagged.key;
-  int found = skeleton_.find(key);
-  while (last && found >= 0) {
+/// The last joint of a chain; any other is its own.
+int Mover::last_of_chain(int joint) const {
+  JointKey key = skeleton_.joints[static_cast<std::size_t>(joint)].key;
+  for (;;) {
     ++key.ordinal;
     const int next = skeleton_.find(key);
-    if (next < 0) break;
-    found = next;
+    if (next < 0) return joint;
+    joint = next;
   }
-  return found;
 }
 
 /// The joints of a chain between its first and its last.
@@ -114,18 +108,35 @@ void Mover::find_rules() {
   rules_.resize(skeleton_.joints.size());
   for (std::size_t i = 0; i < skeleton_.joints.size(); ++i)
     if (skeleton_.joints[i].key.ordinal == 0) find_chain(i);
-  if (!expanded_) return;
-  for (const ExpandedJoint& joint : expanded_->joints) {
-    const int own = skeleton_.find(joint.tagged.key);
-    if (own < 0 || joint.between[0] < 0) continue;
-    const Rule rule{index_of(joint.between[0], true), index_of(joint.between[1], false),
-                    joint.share};
-    if (rule.first >= 0 && rule.second >= 0) rules_[static_cast<std::size_t>(own)] = rule;
+  for (std::size_t i = 0; i < skeleton_.joints.size(); ++i) {
+    const tags::Guiding& guide = skeleton_.joints[i].guide;
+    if (guide.between[0].uid == 0) continue;
+    const int first = skeleton_.find(guide.between[0]), second = skeleton_.find(guide.between[1]);
+    if (first >= 0 && second >= 0) rules_[i] = {last_of_chain(first), second, guide.share};
   }
 }
 
-void Mover::read_edits() {
-  edits_.resize(skeleton_.joints.size());
+bool Mover::is_same(Vec3 a, Vec3 b) const {
+  return is_same_place(to_template(skeleton_.character, a), to_template(skeleton_.character, b));
+}
+
+void Mover::read_guide(const Guide& guide, std::size_t joint) {
+  const bool of_model = skeleton_.joints[joint].foreign_node >= 0;
+  const Vec3 at = to_rig(skeleton_.character, guide.at);
+  const bool stays = is_same(at, base_[joint]);
+  if (!guide.moved() || (stays && (guide.fitted || of_model))) {
+    said_[joint] = Said::back;
+  } else if (of_model) {
+    diagnostics_.report(codes::kGuideOfModel, guide.span,
+                        fmt::format("{} is the model's own joint", printable(guide.name, 60)),
+                        "take the line away: the joint stays where the model has it");
+  } else {
+    said_[joint] = Said::moved;
+    edits_[joint] = stays ? Vec3{} : at - base_[joint];
+  }
+}
+
+void Mover::read_file() {
   std::set<int> seen;
   std::vector<std::string> known;
   for (const auto& [name, joint] : names_)
@@ -137,46 +148,49 @@ void Mover::read_edits() {
       diagnostics_.report(codes::kUnknownGuide, guide.span,
                           fmt::format("there is no joint \"{}\"", printable(guide.name, 60)),
                           suggest(guide.name, known));
-      continue;
-    }
-    const auto joint = static_cast<std::size_t>(found->second);
-    if (!seen.insert(found->second).second) {
+    } else if (!seen.insert(found->second).second) {
       diagnostics_.report(
           codes::kGuideTwice, guide.span,
           fmt::format("{} is another name of a joint above", printable(guide.name, 60)),
           "keep one of them");
-      continue;
+    } else {
+      read_guide(guide, static_cast<std::size_t>(found->second));
     }
-    const bool of_model = skeleton_.joints[joint].foreign_node >= 0;
-    if (fitted_ == Fitted::by_guides && guide.fitted && !of_model &&
-        !is_same_place(*guide.fitted, now_[joint]))
-      base_[joint] = *guide.fitted;
-    if (!guide.moved() || is_same_place(guide.at, base_[joint])) continue;
-    if (of_model)
-      diagnostics_.report(codes::kGuideOfModel, guide.span,
-                          fmt::format("{} is the model's own joint", printable(guide.name, 60)),
-                          "take the line away: the joint stays where the model has it");
-    else
-      edits_[joint] = guide.at - base_[joint];
   }
 }
 
-/// Gives edits of one side to the other, where that has none of its own.
-void Mover::mirror_edits() {
+/// To the other side of the character.
+Vec3 Mover::mirrored(Vec3 way) const {
+  const Vec3 left = skeleton_.character.left;
+  return way - left * (2 * dot(left, way));
+}
+
+/// What is said of one side is said of the other, where nothing else is.
+void Mover::mirror_file() {
   if (guides_.mirror == Guides::Mirror::none) return;
-  std::vector<std::optional<Vec3>> both = edits_;
-  for (std::size_t i = 0; i < edits_.size(); ++i) {
+  const std::vector<Said> said = said_;
+  for (std::size_t i = 0; i < said.size(); ++i) {
     const tags::Mirror& mirror = skeleton_.joints[i].mirror;
     const int other = mirror.opposite.uid != 0 ? skeleton_.find(mirror.opposite) : -1;
-    if (!edits_[i] || other < 0) continue;
+    if (said[i] == Said::nothing || other < 0) continue;
     const auto opposite = static_cast<std::size_t>(other);
-    const bool left = base_[i].x > base_[opposite].x;
+    const Vec3 left = skeleton_.character.left;
+    const bool is_left = dot(left, base_[i]) > dot(left, base_[opposite]);
     const bool wanted = guides_.mirror == Guides::Mirror::both ||
-                        left == (guides_.mirror == Guides::Mirror::left_to_right);
-    if (!wanted || edits_[opposite] || skeleton_.joints[opposite].foreign_node >= 0) continue;
-    both[opposite] = Vec3{-edits_[i]->x, edits_[i]->y, edits_[i]->z};
+                        is_left == (guides_.mirror == Guides::Mirror::left_to_right);
+    if (!wanted || said[opposite] >= said[i] || skeleton_.joints[opposite].foreign_node >= 0)
+      continue;
+    said_[opposite] = said[i];
+    if (edits_[i]) edits_[opposite] = mirrored(*edits_[i]);
   }
-  edits_ = std::move(both);
+}
+
+/// What the file does not mention is as it was.
+void Mover::add_earlier() {
+  for (std::size_t i = 0; i < edits_.size(); ++i) {
+    const tags::TaggedJoint& joint = skeleton_.joints[i];
+    if (said_[i] == Said::nothing && joint.foreign_node < 0) edits_[i] = joint.guide.moved;
+  }
 }
 
 bool Mover::in_same_limb(int a, std::size_t b) const {
@@ -217,23 +231,29 @@ Vec3 Mover::way(std::size_t joint) {
   return ways_[joint];
 }
 
-std::optional<Moves> Mover::run() {
+std::optional<Guided> Mover::run() {
   const std::size_t errors_before = diagnostics_.errors();
-  find_names();
-  find_places();
-  find_rules();
-  read_edits();
-  if (diagnostics_.errors() != errors_before) return std::nullopt;
-  mirror_edits();
   const std::size_t count = skeleton_.joints.size();
+  for (std::size_t i = 0; i < count; ++i) base_.push_back(skeleton_.world(i).origin);
+  edits_.resize(count);
+  said_.resize(count, Said::nothing);
+  find_names();
+  find_rules();
+  read_file();
+  if (diagnostics_.errors() != errors_before) return std::nullopt;
+  mirror_file();
+  add_earlier();
   ways_.resize(count);
   states_.resize(count, State::unknown);
-  Moves moves;
+  Guided out;
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3 to = base_[i] + way(i);
-    if (!is_same_place(to, now_[i])) moves.emplace(skeleton_.joints[i].key, to);
+    const tags::TaggedJoint& joint = skeleton_.joints[i];
+    if (!is_same(to, base_[i])) out.places.emplace(joint.key, to_template(skeleton_.character, to));
+    if (joint.guide.moved && !edits_[i]) out.put_back.push_back(own_names_[i]);
   }
-  return moves;
+  out.moved = std::move(edits_);
+  return out;
 }
 
 }  // namespace
@@ -275,10 +295,9 @@ std::vector<std::string> guide_names(const tags::TaggedSkeleton& skeleton,
   return out;
 }
 
-std::optional<Moves> find_moves(const Guides& guides, const Expanded* expanded,
-                                const tags::TaggedSkeleton& skeleton, Fitted fitted,
-                                Diagnostics& diagnostics) {
-  return Mover(guides, expanded, skeleton, fitted, diagnostics).run();
+std::optional<Guided> find_moves(const Guides& guides, const Expanded* expanded,
+                                 const tags::TaggedSkeleton& fitted, Diagnostics& diagnostics) {
+  return Mover(guides, expanded, fitted, diagnostics).run();
 }
 
 }  // namespace rigc::templates

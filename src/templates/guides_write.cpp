@@ -100,6 +100,10 @@ void Writer::joint(std::size_t index, std::size_t width) {
       out_ += fmt::format("  {:<{}} {{at: {}}}\n", name, width, place(old->at));
     return;
   }
+  if (old && old->moved() && !old->fitted && is_same_place(old->at, fitted)) {
+    out_ += fmt::format("  {:<{}} {}\n", name, width, place(fitted));  // held where it is
+    return;
+  }
   const Vec3 at = old && old->moved() ? old->at : fitted;
   out_ += fmt::format("  {:<{}} {{at: {}, fitted: {}}}\n", name, width, place(at), place(fitted));
 }

@@ -60,6 +60,7 @@ class Placer {
   Affine view(int instance, std::size_t joint) const;
   std::optional<Vec3> pinned(std::size_t index, std::uint32_t ordinal, int instance) const;
   std::optional<Vec3> target(std::size_t index) const;
+  void note_aim(std::size_t index, tags::Guiding& guide) const;
   math::Trs own_rest(std::size_t index, const Affine& parent);
   Mat3 aimed(const ExpandedJoint& joint, const Orient& orient, Vec3 from, Vec3 to);
   void place_joint(std::size_t index);
@@ -180,6 +181,21 @@ std::optional<Vec3> Placer::target(std::size_t index) const {
   return inverse(spaces_[static_cast<std::size_t>(joint.instance)].to_main) * main;
 }
 
+/// For guides over the rig file: what turns the joint when joints are moved.
+void Placer::note_aim(std::size_t index, tags::Guiding& guide) const {
+  const ExpandedJoint& joint = expanded_.joints[index];
+  if (!joint.placement.orient) return;
+  const int at = joint.toward >= 0 ? joint.toward : first_child_[index];
+  if (joint.toward < 0 && joint.chain && joint.chain->steps.empty()) {
+    guide.toward = joint.tagged.key;
+    guide.toward.ordinal = static_cast<std::uint32_t>(joint.chain->count.value - 1);
+  } else if (at >= 0) {
+    guide.toward = expanded_.joints[static_cast<std::size_t>(at)].tagged.key;
+  }
+  const Space& space = spaces_[static_cast<std::size_t>(joint.instance)];
+  guide.up = space.to_main.linear * joint.placement.orient->up_toward * (1 / space.size);
+}
+
 Mat3 Placer::aimed(const ExpandedJoint& joint, const Orient& orient, Vec3 from, Vec3 to) {
   const Vec3 bone = to - from;
   if (!(length(bone) > 1e-9)) {
@@ -266,6 +282,7 @@ void Placer::place_joint(std::size_t index) {
   Placed& placed = placed_[index];
   int above = parent < 0 ? -1 : placed_[static_cast<std::size_t>(parent)].index;
   add(index, 0, above, rest, main);
+  note_aim(index, out_.joints.back().guide);
 
   const int count = joint.chain ? joint.chain->count.value : 1;
   const Vec3 first = own.origin;
@@ -294,7 +311,8 @@ std::optional<tags::TaggedSkeleton> Placer::run() {
   out_ = expanded_.skeleton;
   for (std::size_t i = 0; i < expanded_.joints.size(); ++i) place_joint(i);
   if (diagnostics_.errors() != errors_before) return std::nullopt;
-  const double height = highest_ - lowest_;
+  const double height = tidy_length(highest_ - lowest_);
+  out_.aims = true;
   out_.character.height = height > 1e-6 ? height : 1;
   return std::move(out_);
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "tags/fitted.h"
+
 namespace rigc::update {
 namespace {
 
@@ -161,6 +163,21 @@ std::vector<int> counterparts(const TaggedSkeleton& fresh, const TaggedSkeleton&
   return out;
 }
 
-void keep_placements(TaggedSkeleton& fresh, const TaggedSkeleton& old) { Keeper(fresh, old).run(); }
+void keep_placements(TaggedSkeleton& fresh, const TaggedSkeleton& old) {
+  const std::vector<int> from = counterparts(fresh, old);
+  bool guided = false;
+  for (std::size_t i = 0; i < fresh.joints.size(); ++i) {
+    if (from[i] < 0) continue;
+    const tags::Guiding& guide = old.joints[static_cast<std::size_t>(from[i])].guide;
+    fresh.joints[i].guide.moved = guide.moved;
+    guided = guided || guide.fitted || guide.moved;
+  }
+  TaggedSkeleton fitted = fresh;
+  Keeper(fresh, old).run();
+  if (!guided) return;
+  const TaggedSkeleton before = tags::as_fitted(old);
+  Keeper(fitted, before).run();
+  tags::note_fitted(fresh, fitted);
+}
 
 }  // namespace rigc::update

@@ -17,7 +17,7 @@ std::vector<int> counterparts(const tags::TaggedSkeleton& fresh, const tags::Tag
 /// Puts joints where their counterparts stand in rig space, with the same transform where they hang
 /// on the same joint. New joints keep their transform below their parent. A chain with another
 /// number of joints is spread along the old one, from its first to its last joint. The character
-/// (up, height) becomes the old one.
+/// (up, height) becomes the old one. What guides moved stays moved.
 void keep_placements(tags::TaggedSkeleton& fresh, const tags::TaggedSkeleton& old);
 
 }  // namespace rigc::update

@@ -4,12 +4,14 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 
 #include "pipeline/build.h"
 #include "pipeline/character_helpers.h"
 #include "pipeline/named_edits_helpers.h"
+#include "pipeline/shot_helpers.h"
 #include "scene/access.h"
 #include "support/corpus.h"
 
@@ -103,6 +105,52 @@ TEST_CASE("pipeline features: one side alone") {
     const auto rig = build({"arm_l/" + name + "=off"}, "features_side.glb").rig;
     CHECK(keyable(rig) != keyable(build({}, "features_default.glb").rig));
   }
+}
+
+TEST_CASE("pipeline features: a group's setting reaches the groups that were made beneath it") {
+  const auto controls = [](const gltf::Rig& rig) {
+    std::set<std::pair<std::string, std::string>> out;  // with the group that each is in
+    for (const scene::NodeId id : rig.scene.nodes())
+      if (rig.scene[id].kind == scene::Kind::control)
+        out.emplace(to_text(rig.scene[id].identity), rig.scene[id].ids.local);
+    return out;
+  };
+  const auto changed = [&](const gltf::Rig& a, const gltf::Rig& b) {
+    const auto left = controls(a), right = controls(b);
+    std::vector<std::pair<std::string, std::string>> both;
+    std::set_symmetric_difference(left.begin(), left.end(), right.begin(), right.end(),
+                                  std::back_inserter(both));
+    std::set<std::string> groups;
+    for (const auto& control : both) groups.insert(control.second);
+    return groups;
+  };
+  const auto hand = [](const std::string& arm, bool settings) {
+    std::set<std::string> groups;
+    for (const char* finger : {"thumb", "index", "middle", "ring", "pinky"})
+      groups.insert(arm + "_hand_" + finger);
+    if (settings) groups.insert(arm);
+    return groups;
+  };
+  const auto plain = build({}, "features_default.glb").rig;
+  const auto off = build({"arm_r/fingers=off"}, "features_side.glb").rig;
+  CHECK(changed(off, plain) == hand("arm_r", true));
+  const auto on = build({"arm_l/fingertips=on"}, "features_side.glb").rig;
+  CHECK(changed(on, plain) == hand("arm_l", false));
+  // The nearest group's counts, in whatever order.
+  for (const Features& features :
+       {Features{"arm_l_hand/fingers=off", "fingers=on", "arm_l_hand_index/fingers=on"},
+        Features{"arm_l_hand_index/fingers=on", "arm_l_hand/fingers=off", "fingers=on"}}) {
+    auto fingers = hand("arm_l", false);
+    fingers.erase("arm_l_hand_index");
+    CHECK(changed(build(features, "features_side.glb").rig, plain) == fingers);
+  }
+  // A rig's own file knows as much.
+  const std::string path = test::test_out("features_again.glb");
+  build({}, "features_again.glb");
+  pipeline::RebuildRequest request;
+  request.features = {"arm_r/fingers=off"};
+  test::rebuild(path, request);
+  CHECK(changed(test::read_shot(path).rigs.front(), plain) == hand("arm_r", true));
 }
 
 TEST_CASE("pipeline features: all of them on every humanoid of the corpus") {

@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
+
 #include <cstring>
 
 #include "base/files.h"
@@ -12,6 +14,7 @@
 #include "pipeline/check.h"
 #include "pipeline/named_edits_helpers.h"
 #include "pipeline/rebuild.h"
+#include "support/skeletons.h"
 #include "templates/codes.h"
 
 namespace rigc {
@@ -108,7 +111,188 @@ std::map<int, Vec3> binds_of(const std::string& path) {
   return out;
 }
 
+/// A limb with all that goes along: chains, a joint between two others, what hangs on the end.
+const std::string kLimbs = R"(rigc: 1
+name: limbs
+version: 1
+global: limbs
+joints:
+  - {name: hips, at: [0, 1, 0], local: torso, label: hips, tags: [{command: control}]}
+  - {name: spine, parent: hips, at: [0, 1.1, 0], chain: {count: 4, to: [0, 1.4, 0]}, local: spine,
+     orient: {aim: +y, up: +z}, tags: [{command: control}]}
+  - {name: arm_l, parent: spine, at: [0.2, 1.4, 0], local: arm_l, label: shoulder,
+     orient: {aim: +y, up: +z}, tags: [{command: control}]}
+  - {name: elbow_l, parent: arm_l, at: [0.5, 1.4, -0.02], local: arm_l, label: elbow,
+     orient: {aim: +y, up: +z, toward: wrist_l}, tags: [{command: control}]}
+  - {name: roll_l, parent: elbow_l, at: [0.65, 1.4, -0.01], local: arm_l, label: roll,
+     guide: {between: [elbow_l, wrist_l], at: 0.6}}
+  - {name: wrist_l, parent: elbow_l, at: [0.75, 1.4, 0], local: arm_l, label: wrist}
+  - {name: hand_l, parent: wrist_l, translate: [0.1, 0, 0], local: hand_l, label: palm,
+     tags: [{command: control}]}
+  - {name: arm_r, parent: spine, at: [-0.2, 1.4, 0], local: arm_r, label: shoulder,
+     tags: [{command: control}]}
+  - {name: elbow_r, parent: arm_r, at: [-0.5, 1.4, -0.02], local: arm_r, label: elbow,
+     tags: [{command: control}]}
+  - {name: wrist_r, parent: elbow_r, at: [-0.75, 1.4, 0], local: arm_r, label: wrist}
+)";
+
+std::string numbers(const Vec3& v) {
+  return fmt::format("[{:.5f}, {:.5f}, {:.5f}]", v.x, v.y, v.z);
+}
+
+/// A file that mentions a few joints and controls of a rig, at random.
+class ShortFile {
+ public:
+  ShortFile(const gltf::Rig& rig, test::Random& random) : name_(rig.skeleton.name) {
+    const char* mirrors[] = {"", "mirror: left_to_right\n", "mirror: both\n"};
+    mirror_ = mirrors[random.below(3)];
+    const auto names = templates::guide_names(rig.skeleton, nullptr);
+    for (std::size_t i = 1 + random.below(4); i > 0; --i) {
+      const std::size_t joint = random.below(names.size());
+      const Vec3 fitted =
+          templates::to_template(rig.skeleton.character, rig.skeleton.world(joint).origin);
+      const auto way = [&] { return 0.01 * static_cast<double>(random.below(9)) - 0.04; };
+      const Vec3 at = fitted + (random.below(4) == 0 ? Vec3{} : Vec3{way(), way(), way()});
+      joints_[names[joint]] = random.below(3) == 0
+                                  ? numbers(at)
+                                  : "{at: " + numbers(at) + ", fitted: " + numbers(fitted) + "}";
+      back_[names[joint]] = "{at: " + numbers(fitted) + ", fitted: " + numbers(fitted) + "}";
+      const tags::TaggedJoint& tagged = rig.skeleton.joints[joint];
+      const int other = rig.skeleton.find(tagged.mirror.opposite);
+      if (mirror_.empty() || other < 0) continue;
+      const auto opposite = static_cast<std::size_t>(other);
+      const std::string there = numbers(
+          templates::to_template(rig.skeleton.character, rig.skeleton.world(opposite).origin));
+      back_.emplace(names[opposite], "{at: " + there + ", fitted: " + there + "}");
+    }
+    std::vector<std::string> controls;
+    for (const scene::NodeId id : rig.scene.nodes()) {
+      const scene::Node& node = rig.scene[id];
+      const int owner = rig.skeleton.find(node.identity.owner);
+      if (node.kind != scene::Kind::control || node.ids.local.empty() || owner < 0) continue;
+      controls.push_back(names[static_cast<std::size_t>(owner)] + "/" + node.module + "#" +
+                         node.identity.command + "." + node.identity.role);
+    }
+    const char* edits[] = {"{}", "{size: 2}", "{shape: sphere, color: red}"};
+    controls_[controls[random.below(controls.size())]] = edits[random.below(3)];
+  }
+  std::string text() const { return text(joints_, controls_, mirror_); }
+  /// Everything that both mention as it was without guides.
+  std::string back(const ShortFile& other) const {
+    auto joints = back_;
+    joints.insert(other.back_.begin(), other.back_.end());
+    Lines controls;
+    for (const ShortFile* file : {this, &other})
+      for (const auto& [control, edit] : file->controls_) controls[control] = "{}";
+    return text(joints, controls, "mirror: both\n");
+  }
+
+ private:
+  using Lines = std::map<std::string, std::string>;
+  std::string text(const Lines& joints, const Lines& controls, const std::string& mirror) const {
+    std::string out = "guides: " + name_ + "\n" + mirror + "joints:\n";
+    for (const auto& [name, line] : joints) out += "  " + name + ": " + line + "\n";
+    out += "controls:\n";
+    for (const auto& [name, line] : controls) out += "  " + name + ": " + line + "\n";
+    return out;
+  }
+  std::string name_, mirror_;
+  Lines joints_, back_, controls_;
+};
+
+double difference(const tags::TaggedSkeleton& a, const tags::TaggedSkeleton& b) {
+  REQUIRE(a.joints.size() == b.joints.size());
+  double most = std::abs(a.character.height - b.character.height);
+  for (std::size_t i = 0; i < a.joints.size(); ++i) {
+    const math::Affine p = a.world(i), q = b.world(i);
+    most = std::max({most, length(p.origin - q.origin), length(p.linear.x - q.linear.x),
+                     length(p.linear.y - q.linear.y)});
+  }
+  return most;
+}
+
+const tags::TaggedSkeleton skeleton_of(const std::string& path) {
+  return test::read_shot(path).rigs.front().skeleton;
+}
+
+std::string rebuilt(const std::string& path, const std::string& guides) {
+  pipeline::RebuildRequest request;
+  request.guides = saved("rebuilt.yaml", guides);
+  test::rebuild(path, request);
+  return test::bytes_of(path);
+}
+
 }  // namespace
+
+TEST_CASE("pipeline guides: any file twice is the file once, and all of it put back is nothing") {
+  test::Random random(6);
+  for (int turn = 0; turn < 24; ++turn) {
+    pipeline::BuildRequest request = biped();
+    if (turn % 4 == 1) request.template_file = test::templates_folder() + "/quadruped.yaml";
+    if (turn % 4 == 2) request.template_file = test::templates_folder() + "/tentacle.yaml";
+    if (turn % 4 == 3) request.template_file = saved("limbs.yaml", kLimbs);
+    const std::string plain = test::test_out("laws_plain.glb"), path = test::test_out("laws.glb");
+    const gltf::Rig rig = build(request, "", plain);
+    const ShortFile first(rig, random), second(rig, random);
+    CAPTURE(turn);
+    CAPTURE(first.text());
+    CAPTURE(second.text());
+    const std::string without = test::bytes_of(plain);
+
+    // Built with it; built, and rebuilt with it; and once more.
+    build(request, saved("laws.yaml", first.text()), path);
+    const tags::TaggedSkeleton built = skeleton_of(path);
+    const std::string once = rebuilt(plain, first.text());
+    CHECK(difference(skeleton_of(plain), built) < 1e-9);
+    CHECK((rebuilt(plain, first.text()) == once));
+    rebuilt(path, first.text());
+    CHECK(difference(skeleton_of(path), built) < 1e-9);
+
+    // A second file: what it does not mention stays, and it is idempotent too.
+    const std::string both = rebuilt(plain, second.text());
+    CHECK((rebuilt(plain, second.text()) == both));
+    CHECK((rebuilt(plain, "guides: " + rig.skeleton.name + "\n") == both));
+
+    // What a rig was moved to comes back out of it, and builds it again.
+    pipeline::BuildRequest again = request;
+    const std::string taken = write_guides(request, {}, plain);
+    const gltf::Rig copy = build(again, saved("taken.yaml", taken), path);
+    CHECK(difference(copy.skeleton, skeleton_of(plain)) < 1e-4);
+    rebuilt(plain, taken);
+    CHECK(difference(copy.skeleton, skeleton_of(plain)) < 1e-4);
+
+    CHECK((rebuilt(plain, first.back(second)) == without));
+  }
+}
+
+TEST_CASE("pipeline guides: what a file does not mention stays, and what it sets back is said") {
+  const std::string path = test::test_out("said.glb");
+  build(biped(), saved("said.yaml", raised_elbows(write_guides(biped()))), path);
+  const auto run = [&](const std::string& text) {
+    pipeline::RebuildRequest request;
+    request.guides = saved("said.yaml", "guides: biped\n" + text);
+    return test::rebuild(path, request).rigs.front();
+  };
+  const auto shapes = [&] {
+    const gltf::Rig rig = test::read_shot(path).rigs.front();
+    return shape_of(hand_control(rig, "arm_l")) + " " + shape_of(hand_control(rig, "arm_r"));
+  };
+  using Names = std::vector<std::string>;
+  // A file without `controls:` is no reason to lose them, nor one without `joints:`.
+  CHECK(run("joints:\n  arm_l.elbow: {at: [0.455, 1.42, -0.04], fitted: [0.455, 1.42, -0.04]}\n")
+            .put_back == Names{"arm_l.elbow"});
+  CHECK(shapes() == "sphere sphere");
+  CHECK(run("controls:\n  arm_l.wrist/ik_fk_limb#limb.ik: {}\n").put_back ==
+        Names{"arm_l.wrist/ik_fk_limb#limb.ik"});
+  CHECK(shapes() == "cube sphere");
+  const pipeline::RigReport last =
+      run("mirror: both\njoints:\n  arm_l.elbow: {fitted: [0.455, 1.42, -0.04]}\n"
+          "controls:\n  arm_l.wrist/ik_fk_limb#limb.ik: {}\n");
+  CHECK(last.put_back == Names{"arm_r.elbow", "arm_r.wrist/ik_fk_limb#limb.ik"});
+  CHECK(as_text(last, false).find("2 edits set back by the guides: arm_r.elbow") !=
+        std::string::npos);
+  CHECK(shapes() == "cube cube");
+}
 
 TEST_CASE("pipeline guides: a biped built with the guides that it gave has the same bytes") {
   const std::string guides = saved("same.yaml", write_guides(biped()));

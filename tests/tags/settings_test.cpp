@@ -95,6 +95,29 @@ TEST_CASE("tags settings: features, switches and groups of features") {
   CHECK(applied({"ikfk=off", "ikfk=on"}) == On{true, false, true, false});
 }
 
+TEST_CASE("tags settings: a group's setting counts for those made beneath it, the nearest first") {
+  const auto on = [](const std::vector<std::string>& texts) {
+    TaggedSkeleton skeleton = limbs();
+    skeleton.joints[0].ids.local = "arm_l_hand_index";
+    skeleton.groups = {{"arm_l_hand_index", "arm_l_hand"}, {"arm_l_hand", "arm_l"}};
+    Diagnostics diagnostics;
+    Settings settings;
+    for (const std::string& text : texts)
+      settings.features.push_back(*parse_feature_setting(text, diagnostics));
+    REQUIRE_MESSAGE(apply(skeleton, settings, diagnostics), render(diagnostics, false));
+    return std::pair(skeleton.joints[0].features[0].on, skeleton.joints[1].features[0].on);
+  };
+  CHECK(on({"arm_l/ikfk=off"}) == std::pair(false, true));
+  CHECK(on({"arm_l_hand/ikfk=on", "arm_l/ikfk=off", "ikfk=off"}) == std::pair(true, false));
+  CHECK(on({"ikfk=off", "arm_l/ikfk=on"}) == std::pair(true, false));
+  CHECK(on({"arm_l/ikfk=on", "arm_l/ikfk=off"}) == std::pair(false, true));
+  // A file may say anything.
+  TaggedSkeleton round = limbs();
+  round.groups = {{"arm_l", "leg_l"}, {"leg_l", "arm_l"}};
+  Diagnostics diagnostics;
+  CHECK(apply(round, {{{"arm_l", "ikfk", "", false}}, {}, "bind", false}, diagnostics));
+}
+
 TEST_CASE("tags settings: a group that is off has no commands on") {
   TaggedSkeleton skeleton = limbs();
   Settings settings;
