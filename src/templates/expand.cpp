@@ -80,6 +80,9 @@ void Expander::add_use(const Template& source, const Part* part, int outer) {
     if (part) leave_out(*part, outer);
     return;
   }
+  for (const auto& [group, above] : source.groups)
+    if (const std::string name = final_group(index, group); groups_.insert(name).second)
+      skeleton_.groups.emplace_back(name, final_group(index, above));
   add_joints(index);
   add_parts(index);
 }

@@ -52,6 +52,10 @@ const Section& template_format() {
        {"needs", Form::names,
         "Local groups of its surroundings that a part names in its selectors; its user binds them "
         "with `groups:`."},
+       {"groups", Form::values,
+        "Local groups, each with the one that it lies beneath, whose settings count for it too; "
+        "those "
+        "of parts do anyway."},
        {"joints",
         Form::list,
         "The skeleton; each joint may carry tags.",

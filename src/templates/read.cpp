@@ -77,6 +77,7 @@ void read_body(Reader& reader, const yaml::Node& root) {
   if (const yaml::Node* node = root.find("parameters")) read_parameters(reader, *node);
   if (const yaml::Node* node = root.find("features")) read_features(reader, *node);
   if (const yaml::Node* node = root.find("modules")) read_pins(reader, *node);
+  if (const yaml::Node* node = root.find("groups")) read_groups(reader, *node);
   if (const yaml::Node* node = root.find("shapes")) {
     auto shapes = catalog::read_shapes(*node, reader.diagnostics);
     if (shapes) reader.out.shapes = std::move(*shapes);

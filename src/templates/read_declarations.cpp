@@ -124,6 +124,18 @@ void read_features(Reader& reader, const yaml::Node& node) {
   for (const yaml::Node::Entry& entry : node.entries) read_feature(reader, entry);
 }
 
+void read_groups(Reader& reader, const yaml::Node& node) {
+  if (!node.is_map()) {
+    yaml::check_keys(node, {}, "groups", reader.diagnostics);
+    return;
+  }
+  if (!reader.at_most(node, 16384, "groups")) return;
+  for (const yaml::Node::Entry& entry : node.entries) {
+    const auto above = yaml::as_name(entry.value, entry.key, reader.diagnostics);
+    if (above) reader.out.groups.emplace_back(entry.key, *above);
+  }
+}
+
 void read_pins(Reader& reader, const yaml::Node& node) {
   if (!node.is_map()) {
     yaml::check_keys(node, {}, "modules", reader.diagnostics);

@@ -40,6 +40,7 @@ struct Reader {
 void read_parameters(Reader& reader, const yaml::Node& node);
 void read_features(Reader& reader, const yaml::Node& node);
 void read_pins(Reader& reader, const yaml::Node& node);
+void read_groups(Reader& reader, const yaml::Node& node);
 void read_joints(Reader& reader, const yaml::Node& node);
 void read_parts(Reader& reader, const yaml::Node& node);
 /// `tags:` of a joint into its features and commands.

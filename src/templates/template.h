@@ -147,7 +147,8 @@ struct Template {
   std::vector<tags::FeatureDeclaration> features;
   std::vector<std::pair<std::string, int>> module_pins;
   std::vector<catalog::Parameter> parameters;
-  std::vector<std::string> needs;  ///< local groups of the outer template
+  std::vector<std::string> needs;                           ///< local groups of the outer template
+  std::vector<std::pair<std::string, std::string>> groups;  ///< each with the one above it
   std::vector<Joint> joints;
   std::vector<Part> parts;
   std::vector<catalog::Shape> shapes;

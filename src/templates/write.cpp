@@ -40,6 +40,7 @@ class Text {
   }
   void head();
   void modules();
+  void groups();
   void features();
   void shapes();
   void joint(const WrittenJoint& joint);
@@ -65,6 +66,14 @@ void Text::head() {
   line(0, fmt::format("version: {}", options_.version));
   if (skeleton_.global != options_.name) line(0, "global: " + yaml_text(skeleton_.global));
   modules();
+  groups();
+}
+
+void Text::groups() {
+  if (skeleton_.groups.empty()) return;
+  line(0, "groups:");
+  for (const auto& [group, above] : skeleton_.groups)
+    line(2, yaml_text(group) + ": " + yaml_text(above));
 }
 
 /// Pins: those of the skeleton, and modules that have moved on since the rig was built.

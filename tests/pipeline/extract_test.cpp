@@ -43,6 +43,7 @@ std::string tags_text(const gltf::Rig& rig) {
   skeleton.features.clear();
   for (tags::TaggedJoint& joint : skeleton.joints) {
     joint.features.clear();
+    joint.guide = {};  // orientations are written as they are
     std::erase_if(joint.commands, [](const tags::CommandTag& tag) { return !tag.on; });
     for (tags::CommandTag& tag : joint.commands) {
       tag.feature = -1;
