@@ -58,7 +58,7 @@ class Given {
 /// joints and what carries them, proxies, what strip takes away. Gives the nodes of the proxies.
 class NumberTaker {
  public:
-  NumberTaker(Patch& patch, Rig& rig, const Places& places)
+  NumberTaker(Patch& patch, Rig& rig, const NodePlaces& places)
       : patch_(patch), rig_(rig), places_(places) {}
 
   std::vector<int> take(const NodePlan& plan, const std::vector<ProxyGroup>& groups) {
@@ -91,7 +91,7 @@ class NumberTaker {
 
   Patch& patch_;
   Rig& rig_;
-  const Places& places_;
+  const NodePlaces& places_;
   std::set<int> taken_;
 };
 
@@ -194,14 +194,14 @@ std::string with_additions(const std::string& text, const Additions& additions) 
   return out;
 }
 
-void write_node(Patch& patch, int node, std::string text, const Places& places) {
+void write_node(Patch& patch, int node, std::string text, const NodePlaces& places) {
   const auto additions = places.additions.find(node);
   if (additions != places.additions.end()) text = with_additions(text, additions->second);
   patch.replace("nodes", node, std::move(text));
 }
 
 void write_nodes(Patch& patch, const Rig& rig, const NodePlan& plan, const std::vector<int>& meshes,
-                 const Places& places) {
+                 const NodePlaces& places) {
   for (const auto* part : {&plan.stays, &plan.goes})
     for (const NodeId id : *part)
       write_node(patch, rig.nodes[id.index], node_text(rig, plan, id, meshes[id.index]), places);
@@ -275,7 +275,7 @@ void Slots::add(int index) {
     runs.push_back({index, 1});
 }
 
-bool write_rig(Patch& patch, Rig& rig, int ancestor, const Places& places,
+bool write_rig(Patch& patch, Rig& rig, int ancestor, const NodePlaces& places,
                Diagnostics& diagnostics) {
   const trace::Span span("write rig");
   if (!check_writable(rig, diagnostics)) return false;

@@ -117,7 +117,7 @@ bool replace_rigs(Patch& patch, const File& file, std::vector<Replacement>& repl
   }
   const std::set<int> going = strip_but(patch, file, old, Strip::nothing, kept);
   for (Replacement& one : replacements) {
-    Places places{one.places, find_additions(nodes, *one.old, going, kept.nodes), going};
+    NodePlaces places{one.places, find_additions(nodes, *one.old, going, kept.nodes), going};
     places.own.insert(kept.nodes.begin(), kept.nodes.end());
     for (const auto& [node, additions] : places.additions)
       if (std::any_of(additions.members.begin(), additions.members.end(),

@@ -31,14 +31,14 @@ struct Additions {
 };
 
 /// Places of a rig's nodes in its file.
-struct Places {
+struct NodePlaces {
   std::vector<int> nodes;              ///< by scene node: glTF node to write to, -1: a new one
   std::map<int, Additions> additions;  ///< by glTF node
   std::set<int> own;  ///< glTF nodes of the file that were rigs' own, but for meshes of others
 };
 
 /// write_rig() into given places.
-bool write_rig(Patch& patch, Rig& rig, int ancestor, const Places& places,
+bool write_rig(Patch& patch, Rig& rig, int ancestor, const NodePlaces& places,
                Diagnostics& diagnostics);
 
 }  // namespace rigc::gltf
